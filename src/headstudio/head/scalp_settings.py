@@ -1,0 +1,45 @@
+"""What an artist decides about the scalp."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..params import choice, number
+
+LENGTH_MAPS = ("even", "fringe", "long back", "bob", "short")
+
+
+@dataclass(frozen=True, eq=False)
+class GrayImage:
+    """A gray image over the scalp square, values 0 to 1, row 0 at v = 0, shape (rows, columns). Compared by content."""
+
+    pixels: NDArray[np.float32]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, GrayImage) and np.array_equal(self.pixels, other.pixels)
+
+    def __hash__(self) -> int:
+        return hash((self.pixels.shape, self.pixels.tobytes()))
+
+
+@dataclass(frozen=True)
+class ScalpSettings:
+    """Where hair grows and how long: Bando et al. 2006, section 3.2.
+
+    curves: control points of the four Catmull-Rom curves around the scalp [m], head frame; each curve runs from one
+    corner of the unit square to the next and shares its ends with its neighbours. Empty: placed from landmarks.
+    painted_lengths: a painted length map that takes the place of the named one.
+    """
+
+    whorl_u: float = number(
+        0.5, "Whorl u", "", 0.0, 1.0, "Where the whorl lies on the scalp square, from right to left."
+    )
+    whorl_v: float = number(
+        0.55, "Whorl v", "", 0.0, 1.0, "Where the whorl lies on the scalp square, from front to back."
+    )
+    length_map: str = choice("fringe", "Length map", LENGTH_MAPS, "How hair length varies over the scalp.")
+    curves: tuple[tuple[tuple[float, float, float], ...], ...] = ()
+    painted_lengths: GrayImage | None = field(default=None)

@@ -1,0 +1,26 @@
+"""The document: everything an artist decides, and nothing that follows from it.
+
+It is immutable. A user action makes another document; whatever is shown, simulated or written is built from it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ..head.scalp_settings import ScalpSettings
+from ..lcp.settings import DynamicsSettings, HairSettings, WindSettings
+from .settings import Camera, HeadSettings, Look, MotionSettings
+
+
+@dataclass(frozen=True)
+class Document:
+    """One head with its hair, motion, look and camera. The dotted path of a parameter is PART.FIELD."""
+
+    head: HeadSettings = field(default_factory=HeadSettings)
+    scalp: ScalpSettings = field(default_factory=ScalpSettings)
+    hair: HairSettings = field(default_factory=HairSettings)
+    lcp: DynamicsSettings = field(default_factory=DynamicsSettings)
+    wind: WindSettings = field(default_factory=WindSettings)
+    motion: MotionSettings = field(default_factory=MotionSettings)
+    look: Look = field(default_factory=Look)
+    camera: Camera = field(default_factory=Camera)

@@ -1,0 +1,44 @@
+"""What there is to draw at one instant: the meeting point of the builders, the solvers and the renderer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..head.frame import HeadFrame
+from ..head.head import Head
+from ..head.mesh import Floats
+from ..lcp.model import HairModel
+
+
+@dataclass(frozen=True, eq=False)
+class HairOnStage:
+    """Particles at one instant, in the head frame: positions [m] and unit directions, (n, 3)."""
+
+    model: HairModel
+    positions: Floats
+    directions: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Overlays:
+    """Things drawn on top for whoever tunes the simulation; all in world coordinates [m].
+
+    segments: line pieces (k, 2, 3) with colours (k, 3). points: (p, 3) with colours (p, 3).
+    """
+
+    segments: Floats = field(default_factory=lambda: np.zeros((0, 2, 3)))
+    segment_colours: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    points: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    point_colours: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """One instant. Objects are compared by identity: what is the same object as in the last frame is not sent again."""
+
+    head: Head
+    frame: HeadFrame = field(default_factory=HeadFrame)
+    hair: HairOnStage | None = None
+    overlays: Overlays = field(default_factory=Overlays)
