@@ -20,8 +20,8 @@ class HeadFrame:
 
     The frame sits at the base of the skull. A point p of the head [m] stands at ``translation + rotation(p)`` in the
     world. rotation: of the head against the world. translation: of the whole bust [m], shape (3,). velocity [m/s] and
-    acceleration [m/s^2] of the frame's origin, angular_velocity [rad/s] and angular_acceleration [rad/s^2], all in world
-    axes, shape (3,).
+    acceleration [m/s^2] of the frame's origin, angular_velocity [rad/s] and angular_acceleration [rad/s^2], all in
+    world axes, shape (3,).
 
     The torso takes part in the translation and not in the rotation: the neck turns between them.
     """
@@ -44,8 +44,8 @@ class HeadFrame:
     def skinned(self, points: Floats, head_weight: Floats) -> Floats:
         """Points of the bust at rest [m], shape (n, 3), posed in the world.
 
-        ``head_weight`` is 1 on the head, 0 on the torso and between them on the neck, shape (n,). The rotation vector is
-        weighted (not the matrix), so the neck twists without collapsing.
+        ``head_weight`` is 1 on the head, 0 on the torso and between them on the neck, shape (n,). The rotation vector
+        is weighted (not the matrix), so the neck twists without collapsing.
         """
         turn = Rotation.from_rotvec(self.rotation.as_rotvec()[None, :] * head_weight[:, None])
         return turn.apply(points) + self.translation
