@@ -1,0 +1,23 @@
+"""One door to every head: by name or from a file."""
+
+from __future__ import annotations
+
+from .head import Head
+from .makehuman import makehuman
+
+
+def load_head(source: str, *, age: float = 0.2, masculine: float = 0.0) -> Head:
+    """The head named ``source``: "makehuman", "mannequin", or the path of a mesh (OBJ, PLY, STL, OFF, GLB).
+
+    age (0 young adult to 1 old) and masculine (0 female to 1 male) shape MakeHuman's human and nothing else. Raises
+    HeadError, one line for the user, when there is no usable head.
+    """
+    if source == "makehuman":
+        return makehuman(age, masculine)
+    if source == "mannequin":
+        from .mannequin import mannequin
+
+        return mannequin()
+    from .import_file import head_from_file
+
+    return head_from_file(source)

