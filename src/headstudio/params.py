@@ -91,7 +91,7 @@ class Parameter:
     def _check_number(self, value: Any, name: str) -> float | int:
         try:
             number_ = float(value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise ParameterError(f"{name} takes a number, got {value!r}") from None
         if not math.isfinite(number_):
             raise ParameterError(f"{name} takes a finite number, got {value!r}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +15,22 @@ LENGTH_MAPS = ("even", "fringe", "long back", "bob", "short")
 
 @dataclass(frozen=True, eq=False)
 class GrayImage:
-    """A gray image over the scalp square, values 0 to 1, row 0 at v = 0, shape (rows, columns). Compared by content."""
+    """A gray image over the scalp square, values 0 to 1, row 0 at v = 0, shape (rows, columns). Compared by content.
+
+    Values are rounded to the levels of a 16 bit picture, so that what is saved is what was used. Raises ValueError for
+    an array that is empty, not two-dimensional or not finite.
+    """
+
+    LEVELS: ClassVar[int] = 65535
 
     pixels: NDArray[np.float32]
+
+    def __post_init__(self) -> None:
+        pixels = np.asarray(self.pixels, dtype=np.float64)
+        if pixels.ndim != 2 or pixels.size == 0 or not np.isfinite(pixels).all():
+            raise ValueError("a gray image is a table of finite numbers")
+        levels = np.rint(np.clip(pixels, 0, 1) * self.LEVELS) / self.LEVELS
+        object.__setattr__(self, "pixels", levels.astype(np.float32))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, GrayImage) and np.array_equal(self.pixels, other.pixels)

@@ -1,0 +1,78 @@
+"""What a project file holds besides parameters: painted maps as PNG, curves as JSON.
+
+A part of the document that is no parameter is listed here once, with how it becomes a file inside the project and how
+it is read back. Reading checks everything and raises ValueError with a phrase for the user; the project file adds the
+rest of the sentence.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from PIL import Image, UnidentifiedImageError
+
+from ..head.scalp_settings import GrayImage
+
+Curves = tuple[tuple[tuple[float, float, float], ...], ...]
+
+SCALP_SIDES = 4
+
+
+@dataclass(frozen=True)
+class Attachment:
+    """One file of a project: the dotted ``path`` in the document, the ``file`` in the zip, and the way between them."""
+
+    path: str
+    file: str
+    encode: Callable[[Any], bytes]
+    decode: Callable[[bytes], Any]
+
+
+def encode_gray(image: GrayImage) -> bytes:
+    """A gray image as a PNG of 16 bits, which holds every level that a GrayImage can have."""
+    levels = np.rint(image.pixels.astype(np.float64) * GrayImage.LEVELS).astype(np.uint16)
+    file = io.BytesIO()
+    Image.fromarray(levels).save(file, "PNG")
+    return file.getvalue()
+
+
+def decode_gray(content: bytes) -> GrayImage:
+    """A PNG as a gray image; one that was edited elsewhere may have 8 bits or colours. Raises ValueError."""
+    try:
+        with Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
+            if picture.mode.startswith("I"):
+                return GrayImage(np.asarray(picture, dtype=np.float32) / np.float32(GrayImage.LEVELS))
+            return GrayImage(np.asarray(picture.convert("L"), dtype=np.float32) / np.float32(255))
+    except (UnidentifiedImageError, Image.DecompressionBombError, OSError, SyntaxError):
+        raise ValueError("is no PNG picture") from None
+
+
+def encode_curves(curves: Curves) -> bytes:
+    """The control points of the scalp's curves [m] as JSON, a line each."""
+    lines = ",\n".join(" " + json.dumps(curve, allow_nan=False) for curve in curves)
+    return f"[\n{lines}\n]\n".encode()
+
+
+def decode_curves(content: bytes) -> Curves:
+    """Four curves of at least two control points [m]. Raises ValueError."""
+    try:
+        curves = tuple(tuple((float(x), float(y), float(z)) for x, y, z in curve) for curve in json.loads(content))
+    except (TypeError, ValueError, OverflowError, RecursionError):
+        raise ValueError("is no list of curves") from None
+    if len(curves) != SCALP_SIDES or min(map(len, curves)) < 2:
+        raise ValueError("does not hold four curves of two points or more")
+    if not all(math.isfinite(number) for curve in curves for point in curve for number in point):
+        raise ValueError("holds numbers that are not finite")
+    return curves
+
+
+ATTACHMENTS = (
+    Attachment("scalp.curves", "scalp/curves.json", encode_curves, decode_curves),
+    Attachment("scalp.painted_lengths", "scalp/lengths.png", encode_gray, decode_gray),
+)
