@@ -1,0 +1,83 @@
+"""Which triangle holds a point: the lookup behind both directions of the scalp's map, and behind its curves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import igl
+import numpy as np
+
+from .mesh import Floats, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePoints:
+    """Points on a mesh: face indices, shape (k,), and barycentric coordinates in these faces, shape (k, 3)."""
+
+    faces: Ints
+    weights: Floats
+
+    def blend(self, values: Floats, corners: Ints) -> Floats:
+        """Values given at the vertices, (n, d), of a mesh with faces ``corners``, (m, 3), at these points: (k, d)."""
+        return np.einsum("ij,ijk->ik", self.weights, values[corners[self.faces]])
+
+
+class Locator:
+    """Finds the nearest point of a triangle mesh, in space or in the plane, with a tree that is built once.
+
+    igl.AABB knows three dimensions only, so a plane mesh gets a third coordinate of zero. 100,000 points against 40,000
+    triangles take about 0.1 s; a grid in numpy was no faster, and needs care for points just outside the mesh.
+    """
+
+    def __init__(self, vertices: Floats, faces: Ints) -> None:
+        """vertices: (n, 3) or (n, 2). faces: (m, 3)."""
+        self._vertices = _in_space(vertices)
+        self._faces = np.ascontiguousarray(faces, dtype=np.int64)
+        self._tree = igl.AABB()
+        self._tree.init(self._vertices, self._faces)
+
+    def nearest(self, points: Floats) -> tuple[SurfacePoints, Floats]:
+        """The points of the mesh nearest to ``points``, (k, 3) or (k, 2), and how far they are, (k,)."""
+        if len(points) == 0:
+            return SurfacePoints(np.zeros(0, dtype=np.int64), np.zeros((0, 3))), np.zeros(0)
+        squared, faces, closest = self._tree.squared_distance(self._vertices, self._faces, _in_space(points))
+        weights = barycentric(closest, self._vertices[self._faces[faces]])
+        return SurfacePoints(faces, weights), np.sqrt(squared)
+
+
+def barycentric(points: Floats, triangles: Floats) -> Floats:
+    """Barycentric coordinates of points, (k, 3), in the plane of their triangles, (k, 3, 3): (k, 3), none negative.
+
+    A triangle without area has its points on its longest edge.
+    """
+    a, b, c = (triangles[:, k] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    doubled = np.einsum("ij,ij->i", normal, normal)
+    flat = doubled <= 0
+    scale = np.where(flat, 1.0, doubled)
+    weights = np.stack(
+        [np.einsum("ij,ij->i", np.cross(q - p, points - p), normal) / scale for p, q in ((b, c), (c, a), (a, b))],
+        axis=1,
+    )
+    if flat.any():
+        weights[flat] = _along_longest_edge(points[flat], triangles[flat])
+    weights = np.clip(weights, 0.0, None)
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def _along_longest_edge(points: Floats, triangles: Floats) -> Floats:
+    edges = np.roll(triangles, -1, axis=1) - triangles
+    length = np.einsum("ijk,ijk->ij", edges, edges)
+    row = np.arange(len(points))
+    start = length.argmax(axis=1)
+    part = np.einsum("ij,ij->i", points - triangles[row, start], edges[row, start])
+    part = np.clip(part / np.maximum(length[row, start], np.finfo(float).tiny), 0.0, 1.0)
+    weights = np.zeros((len(points), 3))
+    weights[row, start] = 1 - part
+    weights[row, (start + 1) % 3] = part
+    return weights
+
+
+def _in_space(points: Floats) -> Floats:
+    padded = points if points.shape[1] == 3 else np.pad(points, ((0, 0), (0, 1)))
+    return np.ascontiguousarray(padded, dtype=np.float64)
