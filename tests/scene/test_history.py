@@ -114,6 +114,15 @@ def test_documents_share_what_a_change_leaves_alone():
     assert history.document is before
 
 
+def test_a_document_that_was_opened_has_no_past():
+    history = History(Document())
+    history.change(with_length(0.5), "Length")
+    history.reopen(with_length(0.6))
+    assert not history.modified
+    assert not history.undo()
+    assert history.document == with_length(0.6)
+
+
 def test_only_the_newest_entries_are_kept():
     history = History(0, limit=3)
     for number in range(1, 10):

@@ -24,18 +24,20 @@ class _Entry(Generic[DocumentT]):
 class History(Generic[DocumentT]):
     """The present document, the ways back and forth, and whether it differs from what is on disk.
 
-    A project that was opened starts a history of its own.
-
     Every change names itself ("Hair length"), which is what the menu prints behind Undo and Redo. At most ``limit``
     entries are kept; the oldest go first.
     """
 
     def __init__(self, document: DocumentT, limit: int = LONGEST) -> None:
+        self._limit = limit
+        self.reopen(document)
+
+    def reopen(self, document: DocumentT) -> None:
+        """Start over with a document that is as it is on disk: nothing to undo, nothing modified."""
         self._present = document
         self._saved = document
         self._past: list[_Entry[DocumentT]] = []
         self._future: list[_Entry[DocumentT]] = []
-        self._limit = limit
         self._gesture: tuple[str, DocumentT] | None = None
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
-from .motion import frame_from_angles
+from .motion import Motion, combined, frame_from_angles
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,10 @@ class LiveDrag:
 
     def __init__(self, reach: Reach = NECK) -> None:
         self._reach = reach
+        self.reset()
+
+    def reset(self) -> None:
+        """The head is at rest, at time 0, and nobody pulls."""
         self._time = 0.0
         self._goal = np.zeros(6)
         self._offset = np.zeros(6)
@@ -62,6 +66,10 @@ class LiveDrag:
         """The head at ``time`` [s]; before the last ``aim`` it is where it was then."""
         place, velocity, acceleration = self._at(time)
         return frame_from_angles(place[:3], velocity[:3], acceleration[:3], place[3:], velocity[3:], acceleration[3:])
+
+    def over(self, motion: Motion) -> Motion:
+        """This drag on top of ``motion``: the hand turns a head that moves by itself as well."""
+        return lambda time: combined(self(time), motion(time))
 
     def _at(self, time: float) -> tuple[Floats, Floats, Floats]:
         """Place, velocity and acceleration of y'' + 2 k y' + k^2 y = 0, y being the way from the goal."""

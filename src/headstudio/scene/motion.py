@@ -140,6 +140,19 @@ def frame_from_angles(
     )
 
 
+def combined(outer: HeadFrame, inner: HeadFrame) -> HeadFrame:
+    """The head turned by ``inner`` and then by ``outer``, and moved by both."""
+    turned = outer.rotation.apply([inner.angular_velocity, inner.angular_acceleration])
+    return HeadFrame(
+        rotation=outer.rotation * inner.rotation,
+        translation=outer.translation + inner.translation,
+        velocity=outer.velocity + inner.velocity,
+        acceleration=outer.acceleration + inner.acceleration,
+        angular_velocity=outer.angular_velocity + turned[0],
+        angular_acceleration=outer.angular_acceleration + np.cross(outer.angular_velocity, turned[0]) + turned[1],
+    )
+
+
 def is_teleport(before: HeadFrame, after: HeadFrame, seconds: float) -> bool:
     """Whether no head moves that far in ``seconds``: hair is then carried along instead of being torn.
 

@@ -1,0 +1,72 @@
+"""From the document to what can be simulated and drawn: head, scalp, body and hair, in that order."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from ..head.head import Head
+from ..head.load import load_head
+from ..head.scalp import Scalp, grow_scalp
+from ..lcp.body import Body
+from ..lcp.grow import grow_hair
+from ..lcp.model import HairModel
+from .document import Document
+from .settings import HeadSettings
+
+PartT = TypeVar("PartT")
+
+
+@dataclass(frozen=True, eq=False)
+class Built:
+    """Everything that follows from a document and stays as it is while hair moves."""
+
+    head: Head
+    scalp: Scalp
+    body: Body
+    hair: HairModel
+
+
+class Builder:
+    """Builds documents one after the other and makes again only what a change concerns.
+
+    ``announce`` is told what is being made ("head", "scalp", "body", "hair") before it is. Not for several threads at
+    once.
+    """
+
+    def __init__(self, announce: Callable[[str], None] = lambda part: None) -> None:
+        # The part of each kind that was made last, with what it was made from.
+        self._made: dict[str, tuple[Any, Any]] = {}
+        self._announce = announce
+
+    def build(self, document: Document) -> Built:
+        """Build ``document``. Raises HeadError for a head or scalp curves that cannot be used."""
+        head = self.head(document.head)
+        scalp = self._part("scalp", (head, document.scalp), lambda: grow_scalp(head, document.scalp))
+        body = self._part("body", head, lambda: Body.around(head))
+        hair = self._part("hair", (scalp, body, document.hair), lambda: grow_hair(scalp, body, document.hair))
+        return Built(head, scalp, body, hair)
+
+    def head(self, settings: HeadSettings) -> Head:
+        """Only the head. A file that was written again is read again."""
+        return self._part(
+            "head",
+            (settings, _last_written(settings.source)),
+            lambda: load_head(settings.source, age=settings.age, masculine=settings.masculine),
+        )
+
+    def _part(self, kind: str, wanted: Any, make: Callable[[], PartT]) -> PartT:
+        if kind not in self._made or self._made[kind][0] != wanted:
+            self._announce(kind)
+            self._made[kind] = (wanted, make())
+        part: PartT = self._made[kind][1]
+        return part
+
+
+def _last_written(source: str) -> float | None:
+    try:
+        return os.path.getmtime(source)
+    except (OSError, ValueError):
+        return None
