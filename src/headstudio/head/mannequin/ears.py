@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..mesh import Floats
-from .fields import carve, cone, ellipsoid, inside_box, join, tube
+from .fields import Tube, carve, cone, ellipsoid, inside_box, join
 
 EAR = np.array([71.0, 20.0, -2.0])  # the hole of the ear [mm]
 # Columns: backward, up and outward of the ear, which leans back by 12 and stands off by 24 degrees.
@@ -15,6 +15,12 @@ _FRAME = (
     * Rotation.from_matrix(np.array([[0.41, 0.0, 0.91], [0.0, 1.0, 0.0], [-0.91, 0.0, 0.41]]))
 ).as_matrix()
 
+HELIX = Tube(
+    [(2, 3, 2), (0, 14, 4), (5, 29, 5.5), (15, 34, 6), (25, 27, 6), (28, 12, 5.5), (23, -5, 4.5), (13, -19, 3)],
+    [1.5, 2.4, 3.0, 3.2, 3.2, 3.0, 2.6, 2.2],
+)
+ANTIHELIX = Tube([(12, 26, 4), (18, 16, 5), (17, 4, 5.5), (11, -9, 4.5), (5, -13, 4)], [1.8, 2.4, 2.6, 2.4, 2.4])
+
 
 def ears(p: Floats, head: Floats) -> Floats:
     """``head`` with an ear, for points with x >= 0 [mm]."""
@@ -22,15 +28,9 @@ def ears(p: Floats, head: Floats) -> Floats:
     q, h = (p[near] - EAR) @ _FRAME, head[near]
     shell = ellipsoid(q, (12, 7, 1.5), (17, 27, 3.2))
     shell = join(shell, ellipsoid(q, (5, -21, 1), (7.5, 10, 3.4), (0, 0, 10)), 8)  # lobe
-    rim = tube(
-        q,
-        [(2, 3, 2), (0, 14, 4), (5, 29, 5.5), (15, 34, 6), (25, 27, 6), (28, 12, 5.5), (23, -5, 4.5), (13, -19, 3)],
-        [1.5, 2.4, 3.0, 3.2, 3.2, 3.0, 2.6, 2.2],
-    )
-    shell = join(shell, rim, 4)
+    shell = join(shell, HELIX(q), 4)
     shell = carve(shell, ellipsoid(q, (8, 0, 8), (8, 11, 8.5)), 4)  # concha
-    inner = tube(q, [(12, 26, 4), (18, 16, 5), (17, 4, 5.5), (11, -9, 4.5), (5, -13, 4)], [1.8, 2.4, 2.6, 2.4, 2.4])
-    shell = join(shell, inner, 4)  # antihelix and antitragus
+    shell = join(shell, ANTIHELIX(q), 4)  # antihelix and antitragus
     h = join(h, shell, 5)
     h = join(h, ellipsoid(q, (-1.5, 0, 2.5), (3.4, 5.5, 3.4)), 4)  # tragus
     h = carve(h, cone(q, (5, 0, 3), (1, 0, -5), 3, 2.4), 3)  # ear hole

@@ -5,44 +5,41 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh import Floats
-from .fields import carve, ellipsoid, inside_box, join, tube
+from .fields import Tube, carve, ellipsoid, inside_box, join
 
-EYE = np.array([31.6, 38.0, 77.5])  # centre of the left ball, half the pupil distance from the middle [mm]
+EYE = np.array([31.6, 38.0, 76.0])  # centre of the left ball, half the pupil distance from the middle [mm]
 EYE_RADIUS = 12.2
 EYE_AXIS = np.array([0.0, 0.0, 1.0])
 
-INNER, OUTER = (15.5, 36.6), (46.0, 39.2)  # corners of the lids, x and y
-LID = 1.9  # thickness of the lids over the ball
+INNER, OUTER = np.array([17.0, 36.2]), np.array([46.5, 38.4])  # corners of the lids, x and y
+RISE, FALL = 4.9, 4.0  # of the upper and the lower lid over the line between the corners
+LID = 2.3  # thickness of the lids over the ball
+CREASE = Tube([(15, 39, 91), (23, 45.6, 91.5), (33, 46.9, 91.5), (42, 44.8, 87), (51, 39, 80)], [1.5] * 5)
 
 
-def _slit(p: Floats) -> Floats:
-    """The opening between the lids: an almond between two circles, seen from the front."""
-    inner, outer = np.array(INNER), np.array(OUTER)
-    middle, half = (inner + outer) / 2.0, np.linalg.norm(outer - inner) / 2.0
-    along = (outer - inner) / (2.0 * half)
-    q = p[:, :2] - middle
+def _almond(p: Floats) -> Floats:
+    """The opening between the lids, seen from the front: what two circles share."""
+    half = np.linalg.norm(OUTER - INNER) / 2.0
+    along = (OUTER - INNER) / (2.0 * half)
+    q = p[:, :2] - (INNER + OUTER) / 2.0
     u, v = q @ along, q @ np.array([-along[1], along[0]])
 
     def disc(rise: float, sign: float) -> Floats:
         radius = (half**2 + rise**2) / (2.0 * rise)
         return np.hypot(u, v - sign * (rise - radius)) - radius
 
-    almond = np.maximum(disc(5.6, 1.0), disc(4.6, -1.0))
-    return np.maximum(almond, EYE[2] + 1.0 - p[:, 2])
+    return np.maximum(disc(RISE, 1.0), disc(FALL, -1.0))
 
 
 def eyes(p: Floats, head: Floats) -> Floats:
     """``head`` with sockets, lids and the slit between them, for points with x >= 0 [mm]."""
     near = inside_box(p, (-1, 0, 40), (75, 75, 130))
     q, h = p[near], head[near]
-    h = carve(h, ellipsoid(q, (30, 36, 98), (22, 14, 14), (0, 18, 0)), 16)  # socket
-    lids = ellipsoid(q, EYE, (EYE_RADIUS + LID + 3.0, EYE_RADIUS + LID, EYE_RADIUS + LID))
-    h = join(h, lids, 7)
-    fold = tube(
-        q, [(15, 40, 84), (24, 46.6, 89), (34, 47.6, 88), (44, 44.5, 81), (49, 40, 74)], [0.3, 0.8, 0.9, 0.7, 0.3]
-    )
-    h = carve(h, fold, 3.0)
-    h = carve(h, _slit(q), 1.0)
+    h = carve(h, ellipsoid(q, (29, 37, 97), (21, 12, 12), (0, 18, 0)), 18)  # socket
+    h = join(h, ellipsoid(q, EYE, (EYE_RADIUS + LID + 2.5, EYE_RADIUS + LID, EYE_RADIUS + LID)), 8)  # lids
+    h = carve(h, CREASE(q), 3.0)
+    # The floor of the slit lies under the ball, and before it only in the corners.
+    h = carve(h, np.maximum(_almond(q), EYE[2] + 6.2 - q[:, 2]), 1.4)
     result = head.copy()
     result[near] = h
     return result

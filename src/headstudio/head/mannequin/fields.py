@@ -42,16 +42,29 @@ def cone(p: Floats, start: Vector, end: Vector, start_radius: float, end_radius:
     return np.sqrt(np.einsum("ij,ij->i", q, q)) - (start_radius + t * (end_radius - start_radius))
 
 
-def tube(p: Floats, knots: Sequence[Vector], radii: Sequence[float], pieces: int = 24) -> Floats:
+class Tube:
     """A tube along the spline through ``knots``, its radius a spline through ``radii``."""
-    at = np.linspace(0.0, 1.0, len(knots))
-    fine = np.linspace(0.0, 1.0, pieces + 1)
-    path = CubicSpline(at, np.asarray(knots, dtype=float))(fine)
-    thick = CubicSpline(at, np.asarray(radii, dtype=float))(fine)
-    nearest = np.full(len(p), np.inf)
-    for k in range(pieces):
-        np.minimum(nearest, cone(p, path[k], path[k + 1], thick[k], thick[k + 1]), out=nearest)
-    return nearest
+
+    def __init__(self, knots: Sequence[Vector], radii: Sequence[float]) -> None:
+        columns = np.column_stack([np.asarray(knots, dtype=float), np.asarray(radii, dtype=float)])
+        self._path = CubicSpline(np.arange(len(columns)), columns)
+        self._end = len(columns) - 1.0
+        self._starts = np.linspace(0.0, self._end, 6 * len(columns))
+        self._samples = self._path(self._starts)[:, :3]
+
+    def __call__(self, p: Floats) -> Floats:
+        """Distance [mm]: from the nearest of a few samples, Newton's method finds the foot on the curve."""
+        squares = np.einsum("ij,ij->i", self._samples, self._samples) - 2.0 * p @ self._samples.T
+        at = self._starts[np.argmin(squares, axis=1)]
+        for _ in range(2):
+            away = self._path(at)[:, :3] - p
+            tangent, bend = self._path(at, 1)[:, :3], self._path(at, 2)[:, :3]
+            speed = np.einsum("ij,ij->i", tangent, tangent)
+            curvature = np.maximum(speed + np.einsum("ij,ij->i", away, bend), 0.3 * speed)
+            at = np.clip(at - np.einsum("ij,ij->i", away, tangent) / curvature, 0.0, self._end)
+        foot = self._path(at)
+        away = p - foot[:, :3]
+        return np.sqrt(np.einsum("ij,ij->i", away, away)) - foot[:, 3]
 
 
 def join(a: Floats, b: Floats, blend: float) -> Floats:

@@ -7,8 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline, PchipInterpolator
+from scipy.ndimage import gaussian_filter1d
 
 from ..mesh import Floats
+
+_REACH = 5  # how far fairing reaches along the height [mm]
 
 
 class Section(NamedTuple):
@@ -27,6 +30,22 @@ class Section(NamedTuple):
     back_squareness: float = 2.0
 
 
+class _Batten:
+    """A smooth curve over the height near the values given: as a batten fairs the lines of a ship, without kinks."""
+
+    def __init__(self, height: Floats, values: Floats) -> None:
+        self.low, self.high = height[0], height[-1]
+        fine = np.linspace(self.low, self.high, int(self.high - self.low) + 1)
+        margin = 4 * _REACH
+        drawn = PchipInterpolator(height, values)(fine)
+        padding = [(margin, margin)] + [(0, 0)] * (drawn.ndim - 1)
+        padded = np.pad(drawn, padding, mode="reflect", reflect_type="odd")
+        self._curve = CubicSpline(fine, gaussian_filter1d(padded, _REACH, axis=0)[margin:-margin])
+
+    def __call__(self, y: Floats, derivative: int = 0) -> Floats:
+        return self._curve(np.clip(y, self.low, self.high), derivative)
+
+
 class Lines:
     """The field of a body given by its sections, from the lowest to the highest.
 
@@ -37,23 +56,19 @@ class Lines:
     def __init__(self, sections: Sequence[Section]) -> None:
         rows = np.array(sorted(sections), dtype=float)
         height, breadth = rows[:, 0], rows[:, 1]
-        self._ends = (height[0], height[-1])
-        self._breadth_squared = CubicSpline(height, breadth**2)
         broad = breadth > 0
-        level, breadth = height[broad], breadth[broad]
-        front_ratio = breadth / (rows[broad, 3] - rows[broad, 2])
-        back_ratio = breadth / (rows[broad, 2] - rows[broad, 4])
-        shape = np.stack([rows[broad, 2], front_ratio, back_ratio, rows[broad, 5], rows[broad, 6]], axis=1)
-        self._shape = PchipInterpolator(level, shape)
-        self._level = (level[0], level[-1])
+        ratios = np.abs(breadth[broad, None] / (rows[broad, 3:5] - rows[broad, 2:3]))
+        shape = np.concatenate([rows[broad, 2:3], ratios, rows[broad, 5:]], axis=1)
+        self._breadth_squared = _Batten(height, breadth**2)
+        self._shape = _Batten(height[broad], shape)
 
     def __call__(self, p: Floats) -> Floats:
         """Distance [mm] to first order, at points of shape (n, 3)."""
-        y = np.clip(p[:, 1], *self._ends)
+        y = p[:, 1]
         slope = self._breadth_squared(y, 1)
-        squared = self._breadth_squared(y) + slope * (p[:, 1] - y)
-        level = np.clip(p[:, 1], *self._level)
-        widest, front_ratio, back_ratio, front_power, back_power = self._shape(level).T
+        beyond = y - np.clip(y, self._breadth_squared.low, self._breadth_squared.high)
+        squared = self._breadth_squared(y) + slope * beyond
+        widest, front_ratio, back_ratio, front_power, back_power = self._shape(y).T
         depth = p[:, 2] - widest
         ahead = depth > 0
         ratio, power = np.where(ahead, front_ratio, back_ratio), np.where(ahead, front_power, back_power)

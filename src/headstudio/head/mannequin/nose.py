@@ -10,13 +10,13 @@ def nose(p: Floats, head: Floats) -> Floats:
     """``head`` with a nose, for points with x >= 0 [mm]."""
     near = inside_box(p, (-1, -40, 60), (50, 75, 160))
     q, h = p[near], head[near]
-    bridge = cone(q, (0, 46, 92), (0, 8, 112), 7.5, 8.5)
-    bridge = join(bridge, ellipsoid(q, (0, 16, 96), (16, 26, 14)), 14)  # side walls
-    bridge = join(bridge, ellipsoid(q, (0, 3.5, 114.5), (8.5, 8, 9)), 8)  # tip
-    bridge = join(bridge, ellipsoid(q, (11, 0.5, 103), (6.4, 7.4, 9.5), (0, 0, -10)), 6)  # wing
-    bridge = join(bridge, cone(q, (0, -3.5, 112), (0, -6, 102), 3.4, 4), 5)  # columella
-    h = join(h, bridge, 9)
-    h = carve(h, ellipsoid(q, (7.0, -5.0, 107), (2.8, 5, 5.2), (-10, -18, 0)), 2.5)  # nostril
+    shape = cone(q, (0, 46, 87.5), (0, 8, 110), 6.5, 7.5)  # bridge
+    shape = join(shape, ellipsoid(q, (0, 14, 93), (15, 29, 14)), 14)  # side walls
+    shape = join(shape, ellipsoid(q, (0, 2.8, 113), (8, 7.2, 8)), 10)  # tip
+    shape = join(shape, ellipsoid(q, (9.8, 0.0, 102.5), (6.6, 7.0, 10), (0, -12, -10)), 6.5)  # wing
+    shape = join(shape, ellipsoid(q, (0, -2.5, 105), (12, 4.5, 10)), 6)  # base
+    h = join(h, shape, 10)
+    h = carve(h, ellipsoid(q, (6.4, -4.8, 108.0), (2.7, 5.4, 4.6), (-25, -22, 8)), 2.2)  # nostril
     result = head.copy()
     result[near] = h
     return result

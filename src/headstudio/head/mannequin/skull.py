@@ -9,21 +9,21 @@ from .lines import Lines, Section
 HEAD = Lines(
     [
         Section(149, 0, -12, 0, 0),
-        Section(140, 39, -12, 36, -58),
-        Section(125, 58, -13, 69, -78, 2.0, 2.1),
-        Section(105, 70, -15, 90, -89, 2.1, 2.2),
-        Section(85, 75, -16, 98.5, -92, 2.2, 2.2),
-        Section(65, 75.5, -16, 101, -92, 2.3, 2.2),
-        Section(50, 74, -12, 100, -90, 2.3, 2.1),
-        Section(35, 71, -2, 96, -86, 2.3, 2.0),
-        Section(18, 68.5, 10, 95, -79, 2.2, 2.0),
-        Section(0, 65, 14, 96, -70, 2.1, 2.0),
-        Section(-18, 60, 14, 98, -58, 2.0, 2.0),
-        Section(-36, 53, 14, 98, -30, 2.0, 2.0),
-        Section(-48, 45.5, 24, 97, 0, 2.0, 2.2),
-        Section(-58, 36, 42, 98, 30, 2.0, 2.2),
-        Section(-66, 23, 60, 95, 52, 2.0, 2.2),
-        Section(-71.5, 0, 70, 0, 0),
+        Section(141, 37, -12, 37, -55),
+        Section(126, 57.5, -13, 71, -77, 2.0, 2.1),
+        Section(106, 70, -15, 92, -89, 2.1, 2.2),
+        Section(85, 75, -16, 99.5, -92, 2.2, 2.2),
+        Section(65, 75.5, -16, 100.5, -92, 2.3, 2.2),
+        Section(50, 74, -12, 97, -90, 2.3, 2.1),
+        Section(35, 71, -2, 93, -86, 2.3, 2.0),
+        Section(18, 68.5, 10, 93, -79, 2.25, 2.0),
+        Section(0, 66.5, 14, 95, -70, 2.15, 2.0),
+        Section(-18, 62.5, 14, 97, -58, 2.1, 2.0),
+        Section(-36, 55.5, 14, 97, -30, 2.0, 2.0),
+        Section(-48, 48, 24, 96, 0, 2.0, 2.2),
+        Section(-58, 38.5, 42, 97, 30, 2.0, 2.2),
+        Section(-66, 26, 60, 94, 52, 2.0, 2.2),
+        Section(-72.5, 0, 70, 0, 0),
     ]
 )
 
@@ -31,9 +31,10 @@ HEAD = Lines(
 def skull(p: Floats) -> Floats:
     """Head without eyes, nose, lips and ears, for points with x >= 0 [mm]."""
     head = HEAD(p)
-    head = join(head, ellipsoid(p, (46, 12, 56), (19, 14, 24), (0, 38, 0)), 24)  # cheekbone
-    head = join(head, cone(p, (0, 54, 88), (30, 58, 80), 13, 11), 26)  # brow ridge
-    head = join(head, ellipsoid(p, (0, -27, 72), (30, 26, 33)), 26)  # the barrel of the teeth
-    head = join(head, ellipsoid(p, (0, -58, 86), (17, 12, 14)), 18)  # chin
-    head += 3.0 * bump(p, (66, 60, 62), (20, 26, 22))  # temple
+    head = join(head, ellipsoid(p, (41, 10, 51), (22, 19, 27), (0, 35, 0)), 34)  # cheekbone
+    head = join(head, ellipsoid(p, (36, -20, 52), (20, 30, 27), (0, 30, 0)), 26)  # cheek
+    head = join(head, cone(p, (0, 55, 86), (32, 60, 73), 12, 11), 30)  # brow ridge
+    head = join(head, ellipsoid(p, (0, -28, 70), (31, 27, 35)), 26)  # the barrel of the teeth
+    head = join(head, ellipsoid(p, (0, -58, 86), (17, 12, 13)), 18)  # chin
+    head += 2.5 * bump(p, (68, 58, 58), (18, 26, 22))  # temple
     return head
