@@ -1,0 +1,55 @@
+"""From the words of a command line to a document and a motion."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..io.take_csv import read_take
+from ..params import assign, parse_assignments
+from ..scene.builder import Builder, Built
+from ..scene.document import Document
+from ..scene.motion import Motion, head_motion
+from ..scene.project import load_project
+from .reporting import asides, warn
+
+
+def open_document(project: Path | None, assignments: Sequence[str], **chosen: Any) -> Document:
+    """The project, or a new document, with parameters replaced.
+
+    ``chosen`` are options such as ``head_source="mannequin"`` (None: not given), named by the parameter's path with
+    ``_`` for the dot after its part. ``assignments`` are words like "lcp.friction=2" and have the last word. Raises
+    ParameterError, ProjectError, OSError.
+    """
+    document = Document()
+    if project is not None:
+        read = load_project(project)
+        document = read.document
+        for warning in read.warnings:
+            warn(warning)
+    given = {name.replace("_", ".", 1): value for name, value in chosen.items() if value is not None}
+    return assign(document, given | parse_assignments(list(assignments)))
+
+
+def head_source(word: str | None) -> str | None:
+    """A head named on the command line; a file by its full path, so that a project still finds it from elsewhere."""
+    return os.path.abspath(word) if word is not None and os.path.isfile(word) else word
+
+
+def choose_motion(document: Document, word: str | None) -> tuple[Document, Motion]:
+    """The document with the motion called ``word``, and that motion; a word that ends in .csv is a recorded one."""
+    if word is not None and word.lower().endswith(".csv"):
+        return assign(document, {"motion.kind": "rest"}), read_take(Path(word))
+    if word is not None:
+        document = assign(document, {"motion.kind": word})
+    return document, head_motion(document.motion)
+
+
+def build(document: Document) -> Built:
+    """Build ``document`` and show on a terminal what is being built. Raises HeadError."""
+    if not asides.is_terminal:
+        return Builder().build(document)
+    with asides.status("building") as status:
+        return Builder(lambda part: status.update(f"building the {part}")).build(document)
