@@ -21,15 +21,16 @@ def map_to_square(patch: Patch) -> tuple[Floats, str]:
     a triangle over, which obtuse triangles can do, weights are mean value coordinates (Floater 2003): they are
     positive, and a positive convex combination map to a convex outline is one to one.
     """
+    mesh = patch.disc.mesh
     border = np.concatenate([side[:-1] for side in patch.sides])
-    placed = np.concatenate([_along(patch.mesh.vertices[side], k)[:-1] for k, side in enumerate(patch.sides)])
-    uv = igl.harmonic(patch.mesh.vertices, patch.mesh.faces, border, placed, 1)
-    if _keeps_orientation(uv, patch.mesh.faces):
+    placed = np.concatenate([_along(mesh.vertices[side], k)[:-1] for k, side in enumerate(patch.sides)])
+    uv = igl.harmonic(mesh.vertices, mesh.faces, border, placed, 1)
+    if _keeps_orientation(uv, mesh.faces):
         return uv, "harmonic"
-    uv = _convex_combination(mean_value_weights(patch.mesh), border, placed)
-    if _keeps_orientation(uv, patch.mesh.faces):
+    uv = _convex_combination(mean_value_weights(mesh), border, placed)
+    if _keeps_orientation(uv, mesh.faces):
         return uv, "mean value"
-    edges = igl.adjacency_matrix(patch.mesh.faces)
+    edges = igl.adjacency_matrix(mesh.faces)
     return _convex_combination(csr_array(edges.astype(np.float64)), border, placed), "Tutte"
 
 

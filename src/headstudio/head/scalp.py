@@ -12,14 +12,18 @@ from functools import cached_property
 import numpy as np
 
 from . import length_maps
-from .cut import Patch, cut_patch
+from .cut import cut_patch
 from .hairline import default_curves
 from .harmonic import map_to_square
 from .head import Head
 from .locate import Locator
 from .mesh import Floats, TriangleMesh
-from .scalp_curves import on_surface
+from .refine import ShadedMesh, refine_near
+from .scalp_curves import sample_curves
 from .scalp_settings import GrayImage, ScalpSettings
+
+# Edges longer than this are halved where the curves are cut [m], so that coarse heads get a clean hairline too.
+_LARGEST_CUT_TRIANGLE = 0.008
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,23 +101,21 @@ def grow_scalp(head: Head, settings: ScalpSettings) -> Scalp:
     Raises HeadError when the curves cannot be used: off the skin, not joined, crossing, or not around one piece of it.
     """
     given = tuple(np.array(points, dtype=np.float64) for points in settings.curves)
-    curves = on_surface(given or default_curves(head), Locator(head.skin.vertices, head.skin.faces))
-    patch = cut_patch(head.skin, curves)
+    samples = sample_curves(given or default_curves(head), Locator(head.skin.vertices, head.skin.faces))
+    skin = refine_near(ShadedMesh(head.skin, head.skin.vertex_normals), np.concatenate(samples), _LARGEST_CUT_TRIANGLE)
+    on_skin = Locator(skin.mesh.vertices, skin.mesh.faces)
+    patch = cut_patch(skin, [on_skin.nearest(sample)[0] for sample in samples])
     uv, method = map_to_square(patch)
+    mesh = patch.disc.mesh
     return Scalp(
-        patch=patch.mesh,
+        patch=mesh,
         uv=uv,
-        vertex_normals=patch.normals,
-        curves=tuple(patch.mesh.vertices[side] for side in patch.sides),
+        vertex_normals=patch.disc.normals,
+        curves=tuple(mesh.vertices[side] for side in patch.sides),
         whorl=np.array([settings.whorl_u, settings.whorl_v]),
         length_map=settings.painted_lengths or length_maps.preset(settings.length_map),
-        notes=(_describe(patch, method),),
+        notes=(f"scalp: {1e4 * mesh.face_areas.sum():.0f} cm2 in {len(mesh.faces)} triangles, {method} map",),
     )
-
-
-def _describe(patch: Patch, method: str) -> str:
-    area = 1e4 * patch.mesh.face_areas.sum()
-    return f"scalp: {area:.0f} cm2, {len(patch.mesh.faces)} triangles, {method} map"
 
 
 def _unit(vectors: Floats) -> Floats:

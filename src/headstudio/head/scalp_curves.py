@@ -8,13 +8,13 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from .head import HeadError
-from .locate import Locator, SurfacePoints
+from .locate import Locator
 from .mesh import Floats
 
 SIDES = ("front", "left", "back", "right")
 # A control point farther than this from the skin was not meant to be on it.
 _FARTHEST = 0.02
-_SPACING = 0.004
+SPACING = 0.004
 
 
 def catmull_rom(points: Floats) -> CubicHermiteSpline:
@@ -37,23 +37,20 @@ def catmull_rom(points: Floats) -> CubicHermiteSpline:
     return CubicHermiteSpline(parameter / parameter[-1], points, (slope[1:] + slope[:-1] - across) * parameter[-1])
 
 
-def on_surface(curves: Sequence[Floats], skin: Locator) -> tuple[SurfacePoints, ...]:
-    """Points along the four curves, nearest on the skin, about 4 mm apart; corners are shared exactly.
+def sample_curves(curves: Sequence[Floats], skin: Locator) -> tuple[Floats, ...]:
+    """Points along the four curves [m], each (k, 3) with both ends, at most 4 mm apart and not yet on the skin.
 
     Raises HeadError when a curve does not start where the one before it ends, or a control point is off the skin.
     """
     _check(curves, skin)
-    samples = []
-    for points in curves:
-        curve = catmull_rom(points)
-        length = np.linalg.norm(np.diff(curve(np.linspace(0, 1, 20 * len(points))), axis=0), axis=1).sum()
-        samples.append(curve(np.linspace(0, 1, max(int(length / _SPACING), 4) + 1)))
-    found, _ = skin.nearest(np.concatenate(samples))
-    cuts = np.cumsum([len(sample) for sample in samples])[:-1]
-    return tuple(
-        SurfacePoints(faces, weights)
-        for faces, weights in zip(np.split(found.faces, cuts), np.split(found.weights, cuts))
-    )
+    return tuple(_evenly(catmull_rom(points), 20 * len(points)) for points in curves)
+
+
+def _evenly(curve: CubicHermiteSpline, pieces: int) -> Floats:
+    parameter = np.linspace(0, 1, pieces + 1)
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve(parameter), axis=0), axis=1))])
+    count = max(int(np.ceil(length[-1] / SPACING)), 4)
+    return curve(np.interp(np.linspace(0, length[-1], count + 1), length, parameter))
 
 
 def _check(curves: Sequence[Floats], skin: Locator) -> None:
