@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from PIL import Image
 
+from headstudio.head.head import HeadError
 from headstudio.head.scalp_settings import GrayImage, ScalpSettings
 from headstudio.params import assign, walk
 from headstudio.scene import project
@@ -262,3 +263,18 @@ def test_a_head_that_moved_with_its_project_is_found(tmp_path):
     read = load_project(path)
     assert read.document.head.source == str(tmp_path / "old.obj")
     assert "lies beside the project" in read.warnings[0]
+
+
+def test_without_makehuman_a_new_project_has_the_mannequin_and_says_so(monkeypatch):
+    def missing():
+        raise HeadError("not installed")
+
+    monkeypatch.setattr(project, "data_folder", missing)
+    fresh = project.new_project()
+    assert fresh.document.head.source == "mannequin"
+    assert "mannequin" in fresh.warnings[0]
+
+
+def test_with_makehuman_a_new_project_is_the_default_document(monkeypatch, tmp_path):
+    monkeypatch.setattr(project, "data_folder", lambda: tmp_path)
+    assert project.new_project() == project.Project(Document())

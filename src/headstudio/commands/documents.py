@@ -12,7 +12,7 @@ from ..params import assign, parse_assignments
 from ..scene.builder import Builder, Built
 from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
-from ..scene.project import load_project
+from ..scene.project import Project, load_project, new_project
 from .reporting import asides, warn
 
 
@@ -23,14 +23,16 @@ def open_document(project: Path | None, assignments: Sequence[str], **chosen: An
     ``_`` for the dot after its part. ``assignments`` are words like "lcp.friction=2" and have the last word. Raises
     ParameterError, ProjectError, OSError.
     """
-    document = Document()
     if project is not None:
-        read = load_project(project)
-        document = read.document
-        for warning in read.warnings:
-            warn(warning)
+        start = load_project(project)
+    elif chosen.get("head_source") is None:
+        start = new_project()
+    else:
+        start = Project(Document())
+    for warning in start.warnings:
+        warn(warning)
     given = {name.replace("_", ".", 1): value for name, value in chosen.items() if value is not None}
-    return assign(document, given | parse_assignments(list(assignments)))
+    return assign(start.document, given | parse_assignments(list(assignments)))
 
 
 def head_source(word: str | None) -> str | None:

@@ -23,6 +23,8 @@ from pathlib import Path
 from typing import Any
 
 from .. import __version__
+from ..head.head import HeadError
+from ..head.makehuman_data import data_folder
 from ..params import ParameterError, assign, walk
 from .attachments import ATTACHMENTS, Attachment
 from .document import Document
@@ -52,6 +54,17 @@ class Project:
 
     document: Document
     warnings: tuple[str, ...] = ()
+
+
+def new_project() -> Project:
+    """What an artist starts from: the default document, with the mannequin where MakeHuman's human is not installed."""
+    document = Document()
+    try:
+        data_folder()
+    except HeadError:
+        warning = "MakeHuman's human is not installed, so this is the mannequin; ./studio installs it"
+        return Project(assign(document, {"head.source": "mannequin"}), (warning,))
+    return Project(document)
 
 
 def save_project(document: Document, path: Path) -> None:
