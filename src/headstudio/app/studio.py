@@ -1,0 +1,224 @@
+"""The application without its window: the work, what was built from it, and what is in motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..head.head import HeadError
+from ..head.mesh import Floats
+from ..params import ParameterError
+from ..scene.builder import Builder, Built
+from ..scene.document import Document
+from ..scene.project import ProjectError
+from ..scene.simulation import Simulation
+from ..scene.stage import Stage
+from .builds import Builds
+from .messages import Messages
+from .performance import Performance
+from .playback import Playback
+from .plots import Plots
+from .work import Work
+
+# What the program foresaw and says in its own words; anything else is named with its type.
+FORESEEN = (HeadError, ParameterError, ProjectError, OSError)
+
+
+@dataclass(frozen=True, eq=False)
+class Grown:
+    """A head of hair, ready to move, and the document it was grown from."""
+
+    document: Document
+    built: Built
+    simulation: Simulation
+
+
+class Studio:
+    """Everything the faces of the window show and change."""
+
+    def __init__(self) -> None:
+        self.work = Work()
+        self.messages = Messages()
+        self.playback = Playback()
+        self.performance = Performance(self.document.motion)
+        self.grown: Grown | None = None
+        self.stage: Stage | None = None
+        builder = Builder(lambda part: self.builds.announce(part))
+        self.builds: Builds[Grown] = Builds(lambda document: _grow(builder, document))
+        self.plots = Plots()
+        self._tuned: Document | None = None
+
+    # -- the work ----------------------------------------------------------------------------------------------------
+
+    @property
+    def document(self) -> Document:
+        """The document as it is now."""
+        return self.work.document
+
+    def set(self, path: str, value: Any, label: str) -> None:
+        """Set one parameter; what it cannot take becomes a message."""
+        with self.reporting():
+            self.work.set(path, value, label)
+
+    def undo(self) -> None:
+        """Take back the last change."""
+        label = self.work.history.undo_label
+        if self.work.history.undo():
+            self.messages.say(f"Undone: {label}")
+
+    def redo(self) -> None:
+        """Do again what was taken back."""
+        label = self.work.history.redo_label
+        if self.work.history.redo():
+            self.messages.say(f"Redone: {label}")
+
+    def new(self) -> None:
+        """Start an empty project."""
+        self.work.start_over()
+
+    def open(self, path: Path) -> bool:
+        """Open a project; False, with a message, when it cannot be opened."""
+        with self.reporting() as outcome:
+            for warning in self.work.open(path):
+                self.messages.say(warning, "warning")
+            self.messages.say(f"Opened {path.name}", "good")
+        return outcome.good
+
+    def save(self, path: Path) -> bool:
+        """Save the project; False, with a message, when it cannot be written."""
+        with self.reporting() as outcome:
+            self.messages.say(f"Saved {self.work.save(path)}", "good")
+        return outcome.good
+
+    def reporting(self) -> Reporting:
+        """A block whose errors become messages, and never lose the document."""
+        return Reporting(self.messages)
+
+    # -- time --------------------------------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return self.grown.simulation.time if self.grown else 0.0
+
+    def tick(self, wall: float, fixed: float | None = None) -> None:
+        """Go on by one frame that comes ``wall`` seconds after the last one.
+
+        ``fixed``: the length of a frame [s] while a film is recorded.
+        """
+        self.messages.pass_time(wall)
+        self._follow_document()
+        self._take_build()
+        if self.grown is None:
+            return
+        with self.reporting() as outcome:
+            self._simulate(self.grown.simulation, self.playback.take(wall, fixed))
+        if not outcome.good:
+            self.playback.playing = False
+
+    def aim_head(self, turn: Floats, place: Floats) -> None:
+        """The user's hand wants the head turned by pitch, yaw, roll [rad] and the bust moved [m], each (3,)."""
+        self.performance.hand.aim(self.time, turn, place)
+
+    def reset(self) -> None:
+        """Everything back to rest, at time 0; a motion starts anew."""
+        self.performance = Performance(self.document.motion)
+        if self.grown is not None:
+            self.grown.simulation.reset()
+            self.stage = None
+
+    def _simulate(self, simulation: Simulation, seconds: float) -> None:
+        document = self.document
+        if document != self._tuned:
+            simulation.retune(document)
+            self._tuned, self.stage = document, None
+        if seconds > 0:
+            self.performance.follow(document.motion, simulation.time)
+            simulation.advance(self.performance, seconds)
+            for note in simulation.notes:
+                self.messages.say(note, "warning")
+            self.stage = None
+        if self.stage is None:
+            self.stage = simulation.stage()
+            self.plots.record(simulation.time, simulation.measure(), simulation.timings)
+
+    @property
+    def building(self) -> bool:
+        """Whether hair is being built that the user waits for."""
+        return self.builds.wanted is not None
+
+    def cancel_build(self) -> None:
+        """Keep the hair as it is, and take back the change that asked for another."""
+        self.builds.cancel()
+        self._return_to_grown("Cancelled: the hair stays as it was.")
+
+    def _follow_document(self) -> None:
+        """Ask for a build when the document has moved away from what was built; not in the middle of a drag."""
+        document = self.document
+        if self.work.in_gesture:
+            return
+        known = self.builds.wanted or (self.grown.document if self.grown else None)
+        if known is not None and _same_hair(document, known):
+            return
+        if self.grown is not None and _same_hair(document, self.grown.document):
+            self.builds.cancel()
+        else:
+            self.builds.request(document)
+
+    def _take_build(self) -> None:
+        finished = self.builds.poll()
+        if finished is None:
+            return
+        if finished.result is not None:
+            self.grown = finished.result
+            self._tuned = finished.document
+            self.performance = Performance(self.document.motion)
+            self.stage = None
+        elif finished.error is not None:
+            self.messages.say(explain(finished.error), "error")
+            self._return_to_grown("")
+
+    def _return_to_grown(self, message: str) -> None:
+        if message:
+            self.messages.say(message)
+        if self.grown is None:
+            # Nothing was ever built: start from the one document that always can be.
+            self.work.set("head.source", "mannequin", "Use the mannequin")
+        else:
+            grown = self.grown.document
+            self.work.go_back(lambda document: _same_hair(document, grown))
+
+
+class Reporting:
+    """A block whose errors become messages; ``good`` tells whether there was none."""
+
+    def __init__(self, messages: Messages) -> None:
+        self.good = True
+        self._messages = messages
+
+    def __enter__(self) -> Reporting:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> bool:
+        if not isinstance(error, Exception):
+            return False
+        self.good = False
+        self._messages.say(explain(error), "error")
+        return True
+
+
+def explain(error: Exception) -> str:
+    """An error as one line."""
+    text = " ".join(str(error).split()) or "no further reason"
+    return text if isinstance(error, FORESEEN) else f"{type(error).__name__}: {text}"
+
+
+def _grow(builder: Builder, document: Document) -> Grown:
+    built = builder.build(document)
+    return Grown(document, built, Simulation(built, document))
+
+
+def _same_hair(one: Document, other: Document) -> bool:
+    """Whether the same head of hair grows from both."""
+    return (one.head, one.scalp, one.hair) == (other.head, other.scalp, other.hair)

@@ -1,0 +1,112 @@
+"""Shape the scalp: drag the control points of the four curves around it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from imgui_bundle import icons_fontawesome_6 as icons
+
+from ...head.head import Head
+from ...head.hairline import default_curves
+from ...head.mesh import Floats
+from ...head.scalp_curves import catmull_rom
+from .. import theme
+from ..studio import Studio
+from ..ui import Ui
+from .tool import Canvas, Pointer, Tool
+
+Curves = tuple[tuple[tuple[float, float, float], ...], ...]
+GRAB_RADIUS = 12.0
+SAMPLES = 48
+
+
+class ShapeScalp(Tool):
+    """Handles on the skin; neighbouring curves share their ends, so a corner moves in both."""
+
+    label = "Scalp"
+    icon = icons.ICON_FA_BEZIER_CURVE
+    help = "Drag the handles of the four curves between which hair grows."
+
+    def __init__(self, studio: Studio) -> None:
+        super().__init__(studio)
+        self._placed: tuple[Head, Curves] | None = None
+
+    def press(self, pointer: Pointer) -> bool:
+        """Take the handle under the mouse."""
+        curves = self._curves()
+        if curves is None:
+            return False
+        handles = np.concatenate([np.array(curve) for curve in curves])
+        gaps = np.linalg.norm(
+            pointer.view.project(pointer.frame.to_world(handles)) - [pointer.x, pointer.y], axis=1
+        )
+        gaps[~self._facing(handles, pointer)] = np.inf
+        nearest = int(np.nanargmin(gaps))
+        if not gaps[nearest] < GRAB_RADIUS:
+            return False
+        self._held = handles[nearest]
+        self._before = curves
+        self.studio.work.begin_gesture("Scalp curve")
+        return True
+
+    def drag(self, pointer: Pointer) -> None:
+        """Move the handle along the skin."""
+        if pointer.hit is None:
+            return
+        x, y, z = (float(part) for part in pointer.hit.point)
+        held = tuple(self._held)
+        moved = tuple(tuple((x, y, z) if point == held else point for point in curve) for curve in self._before)
+        document = self.studio.document
+        self.studio.work.change(replace(document, scalp=replace(document.scalp, curves=moved)), "Scalp curve")
+
+    def release(self) -> None:
+        """The handle stays; the hair grows anew between the curves."""
+        self.studio.work.end_gesture()
+
+    def options(self, ui: Ui) -> None:
+        """Back to the curves placed from landmarks."""
+        document = self.studio.document
+        if ui.button("Default curves", "Place the curves from the landmarks of the head.", enabled=bool(document.scalp.curves)):
+            self.studio.work.change(replace(document, scalp=replace(document.scalp, curves=())), "Default curves")
+
+    def draw(self, canvas: Canvas) -> None:
+        """The four curves, and a handle at each control point."""
+        for curve in self._curves() or ():
+            points = np.array(curve)
+            line = catmull_rom(points)(np.linspace(0, 1, SAMPLES * (len(points) - 1)))
+            self._draw_line(canvas, line)
+            for x, y in self._on_screen(canvas, points):
+                canvas.drawing.add_circle_filled((x, y), 6.5 * canvas.scale, theme.packed(theme.GROUND))
+                canvas.drawing.add_circle_filled((x, y), 4.5 * canvas.scale, theme.packed(theme.ACCENT))
+
+    def _curves(self) -> Curves | None:
+        if self.studio.grown is None:
+            return None
+        chosen = self.studio.document.scalp.curves
+        return chosen or self._defaults(self.studio.grown.built.head)
+
+    def _defaults(self, head: Head) -> Curves:
+        """The curves placed from landmarks, found once for each head."""
+        if self._placed is None or self._placed[0] is not head:
+            self._placed = (head, _as_tuples(default_curves(head)))
+        return self._placed[1]
+
+    def _draw_line(self, canvas: Canvas, line: Floats) -> None:
+        shown = [(float(x), float(y)) for x, y in self._on_screen(canvas, line)]
+        for colour, width in ((theme.packed(theme.GROUND, 0.6), 4.0), (theme.packed(theme.ACCENT), 2.0)):
+            canvas.drawing.add_polyline(shown, colour, width * canvas.scale, 0)
+
+    def _on_screen(self, canvas: Canvas, points: Floats) -> Floats:
+        shown = canvas.view.project(canvas.frame.to_world(points)) + [canvas.x, canvas.y]
+        return shown[np.isfinite(shown).all(axis=1)]
+
+    def _facing(self, points: Floats, pointer: Pointer) -> np.ndarray:
+        """Which points lie on the side of the head that is seen."""
+        centre = points.mean(axis=0)
+        outward = pointer.frame.rotation.apply(points - centre)
+        return np.einsum("ij,ij->i", outward, pointer.view.eye - pointer.frame.to_world(points)) > 0
+
+
+def _as_tuples(curves: tuple[Floats, ...]) -> Curves:
+    return tuple(tuple((float(x), float(y), float(z)) for x, y, z in curve) for curve in curves)

@@ -1,0 +1,75 @@
+"""What a tool of the viewport is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from imgui_bundle import imgui
+
+from ...head.frame import HeadFrame
+from ...head.head import Head
+from ..picking import Hit, Ray, View, pick_head
+from ..studio import Studio
+from ..ui import Ui
+
+
+@dataclass(frozen=True, eq=False)
+class Pointer:
+    """The mouse over the viewport: x to the right and y down from its upper left corner, in window units."""
+
+    x: float
+    y: float
+    view: View
+    head: Head | None
+    frame: HeadFrame
+    ctrl: bool = False
+
+    @property
+    def ray(self) -> Ray:
+        """The half line from the eye through the mouse."""
+        return self.view.ray(self.x, self.y)
+
+    @cached_property
+    def hit(self) -> Hit | None:
+        """Where that line meets the skin."""
+        return pick_head(self.head, self.ray, self.frame) if self.head is not None else None
+
+
+@dataclass(frozen=True)
+class Canvas:
+    """Where a tool draws on top of the picture: ImGui's list, the view, and where the picture begins in the window."""
+
+    drawing: imgui.ImDrawList
+    view: View
+    frame: HeadFrame
+    x: float
+    y: float
+    scale: float
+
+
+class Tool:
+    """One way to use the mouse on the scene. A press that the tool does not want turns the camera instead."""
+
+    label = ""
+    icon = ""
+    help = ""
+
+    def __init__(self, studio: Studio) -> None:
+        self.studio = studio
+
+    def press(self, pointer: Pointer) -> bool:
+        """The left button went down; True when the tool wants what follows."""
+        return False
+
+    def drag(self, pointer: Pointer) -> None:
+        """The mouse is moved with the button down; called every frame until the release."""
+
+    def release(self) -> None:
+        """The button was let go."""
+
+    def draw(self, canvas: Canvas) -> None:
+        """Draw handles on top of the picture."""
+
+    def options(self, ui: Ui) -> None:
+        """Draw the tool's own buttons, in the sidebar."""
