@@ -19,10 +19,12 @@ class HairModel:
     rest_directions (unit): the initial state, (n, 3). mass [kg], (n,). fixed: True for root particles, (n,).
 
     links: particle pairs, the rootward one first, (m, 2). rest_length l_ij [m], alignment a_ij (eq. 6) and strength
-    c_ij (eq. 5), (m,). rest_cosine: cosines of theta_ij and theta_ji, (m, 2).
+    c_ij (eq. 5), (m,). rest_cosine: cosines of theta_ij and theta_ji, (m, 2). lifeline: the link by which a particle
+    hangs on the scalp, -1 for root particles, (n,).
 
     smoothing_length_links is h_1 and smoothing_length is h_2 of the paper [m]; spacing is the mean distance of
-    neighbours [m]; rest_density the mean density at rest [kg/m^3].
+    neighbours [m]. rest_density: density in the initial state [kg/m^3], (n,). rest_clearance: distance to the body in the
+    initial state [m], infinite far from it, (n,).
     """
 
     coordinates: Floats
@@ -36,10 +38,12 @@ class HairModel:
     alignment: Floats
     strength: Floats
     rest_cosine: Floats
+    lifeline: Ints
     smoothing_length_links: float
     smoothing_length: float
     spacing: float
-    rest_density: float
+    rest_density: Floats
+    rest_clearance: Floats
 
     @property
     def count(self) -> int:
@@ -54,12 +58,16 @@ class HairModel:
 
 @dataclass(frozen=True, eq=False)
 class HairState:
-    """What moves: positions [m], velocities [m/s] and unit hair directions in the head frame, (n, 3), at a time [s]."""
+    """What moves: positions [m], velocities [m/s] and unit hair directions in the head frame, (n, 3), at a time [s].
+
+    before: positions and velocities one step earlier, for solvers that look back; None after a fresh start.
+    """
 
     positions: Floats
     velocities: Floats
     directions: Floats
     time: float = 0.0
+    before: tuple[Floats, Floats] | None = None
 
     @classmethod
     def at_rest(cls, model: HairModel) -> HairState:

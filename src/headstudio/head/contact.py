@@ -1,0 +1,83 @@
+"""The body as hair feels it: one plane a voxel (Bando's thesis, section 3.5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from .mesh import Floats, Ints, TriangleMesh
+
+_SAMPLES_PER_VOXEL = 24
+
+
+@dataclass(frozen=True, eq=False)
+class ContactField:
+    """Planes that approximate a surface, one in every voxel near it.
+
+    origin: corner of the first voxel [m], (3,). voxel: edge of a voxel [m]. plane: index of the plane in every voxel, -1
+    where the surface is far away, (nx, ny, nz). points: a point on every plane [m], normals: its unit normal, (p, 3).
+
+    Voxels that hold samples of the surface have a plane of their own. Two layers of voxels around those borrow the plane
+    of the nearest: a particle that got below the surface in one step is still brought back.
+    """
+
+    origin: Floats
+    voxel: float
+    plane: NDArray[np.int32]
+    points: Floats
+    normals: Floats
+
+    @classmethod
+    def around(cls, mesh: TriangleMesh, voxel: float, seed: int = 0) -> ContactField:
+        """Sample the surface evenly by area and average positions and normals in each voxel of edge ``voxel`` [m]."""
+        positions, normals = _sample_surface(mesh, voxel, seed)
+        origin = mesh.bounds[0] - 3.0 * voxel
+        shape = np.ceil((mesh.bounds[1] - origin) / voxel).astype(int) + 3
+        cell = np.ravel_multi_index(tuple(((positions - origin) / voxel).astype(int).T), tuple(shape))
+        occupied, member, count = np.unique(cell, return_inverse=True, return_counts=True)
+        mean = np.stack([np.bincount(member, positions[:, k]) for k in range(3)], axis=1) / count[:, None]
+        normal = np.stack([np.bincount(member, normals[:, k]) for k in range(3)], axis=1)
+        length = np.linalg.norm(normal, axis=1)
+        # A voxel with both sides of something thin has no plane that means anything: its neighbours decide there.
+        clear = length > 0.5 * count
+        plane = np.full(shape, -1, dtype=np.int32)
+        plane.flat[occupied[clear]] = np.arange(np.count_nonzero(clear), dtype=np.int32)
+        mean, normal = mean[clear], normal[clear] / length[clear, None]
+        return cls(origin, voxel, _borrow_planes(plane), mean, normal)
+
+    def at(self, positions: Floats) -> tuple[Floats, Floats]:
+        """Signed distance d to the local plane [m] (thesis eq. 3.19), infinite far from the body, (n,); its normals, (n, 3)."""
+        index = np.floor((positions - self.origin) / self.voxel).astype(np.int64)
+        shape = np.array(self.plane.shape)
+        inside = np.all((index >= 0) & (index < shape), axis=1)
+        index = np.clip(index, 0, shape - 1)
+        plane = np.where(inside, self.plane[index[:, 0], index[:, 1], index[:, 2]], -1)
+        normals = self.normals[plane]
+        offset = positions - self.points[plane]
+        distance = np.where(plane >= 0, np.einsum("ij,ij->i", offset, normals), np.inf)
+        return distance, normals
+
+
+def _sample_surface(mesh: TriangleMesh, voxel: float, seed: int) -> tuple[Floats, Floats]:
+    """Random points on the surface, as many on a face as its area asks for, with interpolated normals."""
+    rng = np.random.default_rng(seed)
+    areas = mesh.face_areas
+    count = max(1000, int(_SAMPLES_PER_VOXEL * areas.sum() / voxel**2))
+    face = rng.choice(len(areas), size=count, p=areas / areas.sum())
+    a, b = rng.random((2, count))
+    fold = a + b > 1.0
+    a, b = np.where(fold, 1.0 - a, a), np.where(fold, 1.0 - b, b)
+    weights = np.stack([1.0 - a - b, a, b], axis=1)
+    corners: Ints = mesh.faces[face]
+    positions = np.einsum("ij,ijk->ik", weights, mesh.vertices[corners])
+    return positions, np.einsum("ij,ijk->ik", weights, mesh.vertex_normals[corners])
+
+
+def _borrow_planes(plane: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Give the voxels within two layers of a plane the plane of the nearest voxel that has one."""
+    distance, nearest = ndimage.distance_transform_edt(plane < 0, return_indices=True)
+    borrowed = plane[tuple(nearest)]
+    return np.where(distance <= 2.0, borrowed, -1).astype(np.int32)

@@ -1,0 +1,72 @@
+"""The head and the torso as hair meets them: two rigid bodies, one turning on the other (thesis, section 3.5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..head.contact import ContactField
+from ..head.frame import HeadFrame
+from ..head.head import Head
+from ..head.mesh import Floats, TriangleMesh
+
+_VOXEL = 0.014
+_SLIDING_DISTANCE = 0.004
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """Contact planes of the head, which stand still in the head frame, and of the torso, which turns against it."""
+
+    head: ContactField
+    torso: ContactField | None
+
+    @classmethod
+    def around(cls, head: Head, voxel: float = _VOXEL) -> Body:
+        """The planes of a head: neck and head up to half the turn of the neck, the rest of the neck and the torso below."""
+        weight = head.head_weight[head.skin.faces].mean(axis=1)
+        upper, lower = (
+            TriangleMesh(head.skin.vertices, head.skin.faces[which]) for which in (weight >= 0.5, weight < 0.5)
+        )
+        return cls(
+            ContactField.around(upper, voxel),
+            ContactField.around(lower, voxel) if len(lower.faces) else None,
+        )
+
+    def planes(self, positions: Floats, frame: HeadFrame | None = None) -> tuple[Floats, Floats, Floats]:
+        """Nearest plane of either body: distance d [m], (n,), its unit normal and the velocity of the body there [m/s].
+
+        positions: in the head frame [m], (n, 3); so are the answers. frame: how far the head has turned on the torso, and
+        how fast; None at rest.
+        """
+        distance, normals = self.head.at(positions)
+        velocity = np.zeros_like(positions)
+        if self.torso is None:
+            return distance, normals, velocity
+        if frame is None:
+            torso_distance, torso_normals = self.torso.at(positions)
+        else:
+            torso_distance, torso_normals = self.torso.at(frame.rotation.apply(positions))
+            torso_normals = frame.rotation.inv().apply(torso_normals)
+        nearer = torso_distance < distance
+        distance = np.where(nearer, torso_distance, distance)
+        normals = np.where(nearer[:, None], torso_normals, normals)
+        if frame is not None:
+            spin = frame.rotation.inv().apply(frame.angular_velocity)
+            velocity = np.where(nearer[:, None], -np.cross(spin, positions), 0.0)
+        return distance, normals, velocity
+
+    def clearance(self, positions: Floats) -> Floats:
+        """Distance d to the nearest plane at rest [m], infinite far from the body, (n,)."""
+        return self.planes(positions)[0]
+
+    def slide(self, positions: Floats, directions: Floats) -> Floats:
+        """Unit ``directions`` turned so that they do not lead into the body from ``positions`` [m], both (n, 3)."""
+        distance, normals, _ = self.planes(positions)
+        inward = np.einsum("ij,ij->i", directions, normals)
+        # Below the sliding distance a direction must lead out again, the more the deeper it is.
+        wanted = np.clip((_SLIDING_DISTANCE - distance) / _SLIDING_DISTANCE, 0.0, 1.0) * 0.5
+        correction = np.where(distance < _SLIDING_DISTANCE, np.maximum(wanted - inward, 0.0), 0.0)
+        turned = directions + correction[:, None] * np.nan_to_num(normals)
+        return turned / np.linalg.norm(turned, axis=1, keepdims=True)

@@ -1,0 +1,40 @@
+"""How the links turn the hair direction of a particle: Bando et al. 2006, eq. 15."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..head.mesh import Floats
+from .model import HairModel
+from .springs import LinkState, Springs
+
+
+def updated_directions(model: HairModel, springs: Springs, links: LinkState, directions: Floats) -> Floats:
+    """New unit hair directions t_i*, (n, 3): the mean over a particle's links of t_i^j, weighted with alpha_ij k_ij.
+
+    directions: the present ones, unit, (n, 3). A root particle keeps its own; so does one whose links cancel out.
+    """
+    rootward, tipward = model.links.T
+    seen_from_root = turned(links.unit, directions[rootward], model.rest_cosine[:, 0])
+    seen_from_tip = turned(-links.unit, directions[tipward], model.rest_cosine[:, 1])
+    weight = links.stiffness[:, None]
+    total = springs.sum_at_ends(weight * seen_from_root, weight * seen_from_tip)
+    length = np.linalg.norm(total, axis=1)
+    steady = model.fixed | (length <= 1e-12 * length.max(initial=1e-300))
+    return np.where(steady[:, None], directions, total / np.where(steady, 1.0, length)[:, None])
+
+
+def turned(unit: Floats, direction: Floats, cosine: Floats) -> Floats:
+    """t_i^j: the connection's direction ``unit`` turned by theta toward the hair's ``direction``, (m, 3) each.
+
+    ``cosine`` is cos theta, (m,). The turn is about the axis normal to both; where they are parallel there is no such
+    axis, and the answer is +-unit, on the hair's side.
+    """
+    along = np.einsum("ij,ij->i", unit, direction)
+    across = direction - along[:, None] * unit
+    length = np.sqrt(np.einsum("ij,ij->i", across, across))
+    parallel = length < 1e-6
+    sine = np.sqrt(np.maximum(1.0 - cosine * cosine, 0.0))
+    lengthwise = np.where(parallel, np.sign(along), cosine)
+    sideways = np.where(parallel, 0.0, sine / np.where(parallel, 1.0, length))
+    return lengthwise[:, None] * unit + sideways[:, None] * across

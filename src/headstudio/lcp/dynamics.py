@@ -1,0 +1,103 @@
+"""All forces on hair at one instant: what both solvers share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..head.frame import HeadFrame
+from ..head.mesh import Floats, Ints
+from .body import Body
+from .contact import Touching, repulsion, stop_at_body, stop_at_reach, touching
+from .direction import updated_directions
+from .inertia import apparent_acceleration
+from .interactions import hair_hair_forces
+from .model import HairModel
+from .neighbours import NeighbourList
+from .settings import DynamicsSettings
+from .springs import LinkState, Springs
+from .timing import Timer
+
+
+@dataclass(frozen=True, eq=False)
+class Circumstances:
+    """What a step finds: the settings, the frame of the head at its end, and forces from outside [N], (n, 3) or None."""
+
+    settings: DynamicsSettings
+    frame: HeadFrame
+    outside: Floats | None = None
+
+
+class Dynamics:
+    """The forces on one head of hair, and the neighbour list that they are summed over."""
+
+    def __init__(self, model: HairModel, body: Body) -> None:
+        self.model = model
+        self.body = body
+        self.springs = Springs(model)
+        self.neighbours = NeighbourList(2.0 * model.smoothing_length)
+        self.timer = Timer()
+
+    def soft_acceleration(
+        self,
+        now: Circumstances,
+        positions: Floats,
+        velocities: Floats,
+        damped_velocities: Floats,
+        directions: Floats,
+        touch: Touching,
+        dt: float,
+    ) -> Floats:
+        """Everything but springs and air friction [m/s^2], (n, 3): what an explicit step can carry.
+
+        velocities [m/s] decide Coriolis, damped_velocities collision and friction of hair; (n, 3) as positions [m] and
+        directions. dt: the step to come [s].
+        """
+        acceleration = apparent_acceleration(now.frame, positions, velocities, now.settings.gravity)
+        acceleration += repulsion(touch)
+        if now.outside is not None:
+            acceleration += now.outside / self.model.mass[:, None]
+        if now.settings.interactions:
+            with self.timer.stage("neighbours"):
+                pairs = self.neighbours.pairs(positions)
+            with self.timer.stage("interactions"):
+                force, _ = hair_hair_forces(
+                    self.model, now.settings, positions, damped_velocities, directions, pairs, dt
+                )
+                acceleration += force / self.model.mass[:, None]
+        return acceleration
+
+    def touch(self, positions: Floats, frame: HeadFrame) -> Touching:
+        """Where the body is, seen from every particle."""
+        with self.timer.stage("contact"):
+            return touching(self.model, self.body, positions, frame)
+
+    def links(self, positions: Floats, settings: DynamicsSettings) -> LinkState:
+        """The springs at ``positions`` [m], (n, 3)."""
+        with self.timer.stage("springs"):
+            return self.springs.at(positions, settings.elastic_modulus)
+
+    def hold(
+        self, start: Floats, velocities: Floats, touch: Touching, distance: Floats, friction: float, dt: float
+    ) -> tuple[Floats, NDArray[np.bool_]]:
+        """Velocities [m/s] after body and reach have had their say, (n, 3), and whom they held, (n,).
+
+        A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s].
+        """
+        with self.timer.stage("contact"):
+            velocities, at_reach = stop_at_reach(self.model, start, velocities, dt)
+            velocities, at_body = stop_at_body(velocities, touch, distance, friction, dt)
+        velocities[self.model.fixed] = 0.0
+        return velocities, at_reach | at_body
+
+    def turn(self, positions: Floats, directions: Floats, settings: DynamicsSettings) -> Floats:
+        """Hair directions at new positions (eq. 15), unit, (n, 3)."""
+        links = self.links(positions, settings)
+        with self.timer.stage("directions"):
+            return updated_directions(self.model, self.springs, links, directions)
+
+    def pairs(self, positions: Floats) -> Ints:
+        """Pairs of particles near each other, each once, (p, 2)."""
+        return self.neighbours.pairs(positions)

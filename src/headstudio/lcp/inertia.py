@@ -1,0 +1,31 @@
+"""What hair feels because its head moves: Bando et al. 2006, section 3.5.
+
+Particles are followed in the frame of the head, so a moving head shows as forces and never as jumps of position.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..head.frame import HeadFrame
+from ..head.mesh import Floats
+
+
+def apparent_acceleration(frame: HeadFrame, positions: Floats, velocities: Floats, gravity: float) -> Floats:
+    """Gravity, and the translational, Euler, centrifugal and Coriolis accelerations [m/s^2], (n, 3).
+
+    positions [m] and velocities [m/s] in the head frame, (n, 3). gravity: [m/s^2], downward in the world.
+    """
+    to_head = frame.rotation.inv()
+    falling = to_head.apply(np.array([0.0, -gravity, 0.0]) - frame.acceleration)
+    spin = to_head.apply(frame.angular_velocity)
+    spin_change = to_head.apply(frame.angular_acceleration)
+    # One matrix for Euler and centrifugal, one for Coriolis: x -> a x is a cross product.
+    turning = _cross_matrix(spin)
+    by_position = -_cross_matrix(spin_change) - turning @ turning
+    return falling + positions @ by_position.T + velocities @ (-2.0 * turning).T
+
+
+def _cross_matrix(a: Floats) -> Floats:
+    """The matrix of x -> a cross x, (3, 3)."""
+    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])

@@ -1,0 +1,80 @@
+"""Who is near whom: a grid of voxels, and a list that lives for several steps (Bando et al. 2006, section 3.1, step 1).
+
+The grid has cells of the search radius, so all neighbours of a particle lie in the 27 cells around it. Sorting particles
+by cell makes three cells in a row one run of the sorted array; half of the 27 cells are five such runs, and every pair is
+found once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..head.mesh import Floats, Ints
+
+# The rows of cells after a cell, in the order of the sorted array: (dy, dz, first dx, last dx).
+_HALF_ROWS = ((0, 0, 0, 1), (1, 0, -1, 1), (-1, 1, -1, 1), (0, 1, -1, 1), (1, 1, -1, 1))
+
+
+def find_pairs(positions: Floats, radius: float) -> Ints:
+    """All pairs (i, j), each once, of particles closer than ``radius`` [m], shape (p, 2). positions: [m], (n, 3)."""
+    count = len(positions)
+    if count < 2:
+        return np.zeros((0, 2), dtype=np.int64)
+    cell = np.floor((positions - positions.min(axis=0)) / radius).astype(np.int64) + 1
+    nx, ny = cell[:, 0].max() + 2, cell[:, 1].max() + 2
+    key = (cell[:, 2] * ny + cell[:, 1]) * nx + cell[:, 0]
+    order = np.argsort(key, kind="stable")
+    key = key[order]
+    sorted_columns = np.ascontiguousarray(positions[order].T)
+    pieces = []
+    for dy, dz, first, last in _HALF_ROWS:
+        shift = (dz * ny + dy) * nx
+        same_cell = dy == 0 and dz == 0
+        begin = np.arange(1, count + 1) if same_cell else np.searchsorted(key, key + shift + first, "left")
+        end = np.searchsorted(key, key + shift + last, "right")
+        runs = np.maximum(end - begin, 0)
+        i = np.repeat(np.arange(count), runs)
+        # The k-th candidate of a run stands k places behind the run's begin.
+        j = np.arange(len(i)) + np.repeat(begin - np.cumsum(runs) + runs, runs)
+        near = _squared_distance(sorted_columns, i, j) < radius * radius
+        pieces.append(np.stack([i[near], j[near]], axis=1))
+    return order[np.concatenate(pieces)]
+
+
+def _squared_distance(columns: Floats, i: Ints, j: Ints) -> Floats:
+    """|x_j - x_i|^2 for particles given as columns, (3, n)."""
+    x = columns[0][j] - columns[0][i]
+    y = columns[1][j] - columns[1][i]
+    z = columns[2][j] - columns[2][i]
+    return x * x + y * y + z * z
+
+
+class NeighbourList:
+    """Pairs of particles near each other, kept for as long as they can be trusted (a Verlet list).
+
+    radius: pairs closer than this are always in the list [m]. skin: how much farther the list looks, as a part of radius.
+    """
+
+    def __init__(self, radius: float, skin: float = 0.25) -> None:
+        self.radius = radius
+        self.skin = skin * radius
+        self.searches = 0
+        self.questions = 0
+        self._pairs: Ints | None = None
+        self._searched_at: Floats = np.zeros((0, 3))
+
+    def pairs(self, positions: Floats) -> Ints:
+        """Every pair closer than the radius, each once, and some that are farther, (p, 2). positions: [m], (n, 3)."""
+        self.questions += 1
+        if self._pairs is None or not self._still_good(positions):
+            self._pairs = find_pairs(positions, self.radius + self.skin)
+            self._searched_at = positions.copy()
+            self.searches += 1
+        return self._pairs
+
+    def _still_good(self, positions: Floats) -> bool:
+        """Whether no two particles can have come closer by the skin since the last search."""
+        moved = positions - self._searched_at
+        # What all particles do together changes no distance.
+        moved = moved - moved.mean(axis=0)
+        return bool(np.max(np.einsum("ij,ij->i", moved, moved)) <= (0.5 * self.skin) ** 2)
