@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..mesh import Floats
-from .fields import Tube, carve, ellipsoid, join, meet
+from .fields import Tube, carve, ellipsoid, join, meet, shaped
 from .lines import Lines, Section
 
 CUT = -232.0  # height of the plane the bust stands on [mm]
@@ -25,16 +25,21 @@ TRAPEZIUS = Tube([(18, -50, -58), (52, -100, -60), (104, -136, -54), (160, -156,
 CLAVICLE = Tube([(10, -150, 14), (60, -150, 16), (108, -142, -6), (152, -140, -32)], [5, 4, 4, 5])
 
 
-def neck(p: Floats) -> Floats:
-    """The column of the neck with the muscles that turn the head, for points with x >= 0 [mm]."""
-    return join(COLUMN(p), STERNOCLEIDOMASTOID(p), 16)
+def _muscle(p: Floats, body: Floats) -> Floats:
+    return join(body, STERNOCLEIDOMASTOID(p), 16)
 
 
-def torso(p: Floats) -> Floats:
-    """Shoulders and upper chest, for points with x >= 0 [mm]."""
-    chest = ellipsoid(p, (0, -240, -38), (168, 110, 84))
-    chest = join(chest, TRAPEZIUS(p), 60)
+def _shoulders(p: Floats, body: Floats) -> Floats:
+    chest = join(ellipsoid(p, (0, -240, -38), (168, 110, 84)), TRAPEZIUS(p), 60)
     chest = join(chest, ellipsoid(p, (158, -188, -42), (38, 56, 46)), 44)  # deltoid
     chest = join(chest, CLAVICLE(p), 26)
     chest = carve(chest, ellipsoid(p, (0, -144, 28), (8, 12, 16)), 22)  # notch above the breastbone
-    return meet(chest, ellipsoid(p, (0, -130, -30), (204, 140, 150)), 30)
+    chest = meet(chest, ellipsoid(p, (0, -130, -30), (204, 140, 150)), 30)
+    return join(body, chest, 34)
+
+
+def bust(p: Floats, head: Floats) -> Floats:
+    """``head`` on its neck and shoulders, for points with x >= 0 [mm]."""
+    body = shaped(p, COLUMN(p), (-1, -175, -60), (85, 45, 45), _muscle)
+    body = shaped(p, body, (-1, -400, -400), (400, 10, 400), _shoulders)
+    return join(head, body, 16)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ..mesh import Floats
-from .fields import Tube, carve, cone, ellipsoid, inside_box, join
+from .fields import Tube, carve, cone, ellipsoid, join, shaped
 
 EAR = np.array([71.0, 20.0, -2.0])  # the hole of the ear [mm]
 # Columns: backward, up and outward of the ear, which leans back by 12 and stands off by 24 degrees.
@@ -22,18 +22,18 @@ HELIX = Tube(
 ANTIHELIX = Tube([(12, 26, 4), (18, 16, 5), (17, 4, 5.5), (11, -9, 4.5), (5, -13, 4)], [1.8, 2.4, 2.6, 2.4, 2.4])
 
 
-def ears(p: Floats, head: Floats) -> Floats:
-    """``head`` with an ear, for points with x >= 0 [mm]."""
-    near = inside_box(p, (45, -40, -60), (125, 80, 40))
-    q, h = (p[near] - EAR) @ _FRAME, head[near]
+def _shape(p: Floats, head: Floats) -> Floats:
+    q = _FRAME.T @ (p - EAR[:, None])
     shell = ellipsoid(q, (12, 7, 1.5), (17, 27, 3.2))
     shell = join(shell, ellipsoid(q, (5, -21, 1), (7.5, 10, 3.4), (0, 0, 10)), 8)  # lobe
     shell = join(shell, HELIX(q), 4)
     shell = carve(shell, ellipsoid(q, (8, 0, 8), (8, 11, 8.5)), 4)  # concha
-    shell = join(shell, ANTIHELIX(q), 4)  # antihelix and antitragus
-    h = join(h, shell, 5)
-    h = join(h, ellipsoid(q, (-1.5, 0, 2.5), (3.4, 5.5, 3.4)), 4)  # tragus
-    h = carve(h, cone(q, (5, 0, 3), (1, 0, -5), 3, 2.4), 3)  # ear hole
-    result = head.copy()
-    result[near] = h
-    return result
+    shell = join(shell, ANTIHELIX(q), 4)
+    head = join(head, shell, 5)
+    head = join(head, ellipsoid(q, (-1.5, 0, 2.5), (3.4, 5.5, 3.4)), 4)  # tragus
+    return carve(head, cone(q, (5, 0, 3), (1, 0, -5), 3, 2.4), 3)  # ear hole
+
+
+def ears(p: Floats, head: Floats) -> Floats:
+    """``head`` with an ear, for points with x >= 0 [mm]."""
+    return shaped(p, head, (45, -40, -60), (125, 80, 40), _shape)

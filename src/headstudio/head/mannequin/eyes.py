@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh import Floats
-from .fields import Tube, carve, ellipsoid, inside_box, join
+from .fields import Tube, carve, ellipsoid, join, shaped
 
 EYE = np.array([31.6, 38.0, 76.0])  # centre of the left ball, half the pupil distance from the middle [mm]
 EYE_RADIUS = 12.2
@@ -21,8 +21,8 @@ def _almond(p: Floats) -> Floats:
     """The opening between the lids, seen from the front: what two circles share."""
     half = np.linalg.norm(OUTER - INNER) / 2.0
     along = (OUTER - INNER) / (2.0 * half)
-    q = p[:, :2] - (INNER + OUTER) / 2.0
-    u, v = q @ along, q @ np.array([-along[1], along[0]])
+    q = p[:2] - ((INNER + OUTER) / 2.0)[:, None]
+    u, v = along @ q, np.array([-along[1], along[0]]) @ q
 
     def disc(rise: float, sign: float) -> Floats:
         radius = (half**2 + rise**2) / (2.0 * rise)
@@ -31,15 +31,14 @@ def _almond(p: Floats) -> Floats:
     return np.maximum(disc(RISE, 1.0), disc(FALL, -1.0))
 
 
+def _shape(p: Floats, head: Floats) -> Floats:
+    head = carve(head, ellipsoid(p, (29, 37, 97), (21, 12, 12), (0, 18, 0)), 18)  # socket
+    head = join(head, ellipsoid(p, EYE, (EYE_RADIUS + LID + 2.5, EYE_RADIUS + LID, EYE_RADIUS + LID)), 8)  # lids
+    head = carve(head, CREASE(p), 3.0)
+    # The floor of the slit lies under the ball, and before it only in the corners.
+    return carve(head, np.maximum(_almond(p), EYE[2] + 6.2 - p[2]), 1.4)
+
+
 def eyes(p: Floats, head: Floats) -> Floats:
     """``head`` with sockets, lids and the slit between them, for points with x >= 0 [mm]."""
-    near = inside_box(p, (-1, 0, 40), (75, 75, 130))
-    q, h = p[near], head[near]
-    h = carve(h, ellipsoid(q, (29, 37, 97), (21, 12, 12), (0, 18, 0)), 18)  # socket
-    h = join(h, ellipsoid(q, EYE, (EYE_RADIUS + LID + 2.5, EYE_RADIUS + LID, EYE_RADIUS + LID)), 8)  # lids
-    h = carve(h, CREASE(q), 3.0)
-    # The floor of the slit lies under the ball, and before it only in the corners.
-    h = carve(h, np.maximum(_almond(q), EYE[2] + 6.2 - q[:, 2]), 1.4)
-    result = head.copy()
-    result[near] = h
-    return result
+    return shaped(p, head, (-1, 0, 40), (75, 75, 130), _shape)

@@ -1,8 +1,8 @@
 """Distance fields: the clay of the mannequin.
 
 A field gives for every point how far it lies from a surface, negative inside [mm]. Shapes are joined, carved and
-pushed by arithmetic on those numbers. Points have shape (n, 3) and fields shape (n,); lengths are millimetres, as in
-anthropometry, until the finished head is scaled to metres.
+pushed by arithmetic on those numbers. Points are columns here, shape (3, n), because numpy runs fastest along the long
+axis; fields have shape (n,). Lengths are millimetres, as in anthropometry, until the finished head is scaled.
 """
 
 from __future__ import annotations
@@ -15,35 +15,41 @@ from scipy.spatial.transform import Rotation
 
 from ..mesh import Floats
 
-Vector = Sequence[float]
+Vector = Sequence[float] | Floats
 Field = Callable[[Floats], Floats]
+FAR = 100.0  # where a shape is too far away to matter [mm]
+
+
+def _column(vector: Vector) -> Floats:
+    return np.asarray(vector, dtype=float)[:, None]
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def ellipsoid(p: Floats, centre: Vector, radii: Vector, turn: Vector = (0.0, 0.0, 0.0)) -> Floats:
-    """Ellipsoid, turned about x, then y, then z [degrees]; exact on its surface and to first order around it."""
-    q = p - np.asarray(centre)
+    """Ellipsoid, turned about x, then y, then z [degrees]; right on its surface and to first order around it."""
+    q = p - _column(centre)
     if any(turn):
-        q = Rotation.from_euler("xyz", turn, degrees=True).inv().as_matrix() @ q.T
-        q = q.T
-    scaled = q / np.asarray(radii)
-    size = np.sqrt(np.einsum("ij,ij->i", scaled, scaled))
-    slope = scaled / np.asarray(radii)
-    steep = np.sqrt(np.einsum("ij,ij->i", slope, slope))
-    return size * (size - 1.0) / np.maximum(steep, 1e-9)
+        q = Rotation.from_euler("xyz", turn, degrees=True).as_matrix().T @ q
+    q /= _column(radii)
+    size = np.sqrt(_dot(q, q))
+    q /= _column(radii)
+    return size * (size - 1.0) / np.sqrt(np.maximum(_dot(q, q), 1e-12))
 
 
 def cone(p: Floats, start: Vector, end: Vector, start_radius: float, end_radius: float) -> Floats:
     """A capsule whose radius goes evenly from one end to the other."""
-    a = np.asarray(start, dtype=float)
-    along = np.asarray(end, dtype=float) - a
-    q = p - a
-    t = np.clip(q @ along / (along @ along), 0.0, 1.0)
-    q -= t[:, None] * along
-    return np.sqrt(np.einsum("ij,ij->i", q, q)) - (start_radius + t * (end_radius - start_radius))
+    along = np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
+    q = p - _column(start)
+    t = np.clip(along @ q / (along @ along), 0.0, 1.0)
+    q -= along[:, None] * t
+    return np.sqrt(_dot(q, q)) - (start_radius + t * (end_radius - start_radius))
 
 
 class Tube:
-    """A tube along the spline through ``knots``, its radius a spline through ``radii``."""
+    """The field of a tube along the spline through ``knots``, its radius a spline through ``radii``."""
 
     def __init__(self, knots: Sequence[Vector], radii: Sequence[float]) -> None:
         columns = np.column_stack([np.asarray(knots, dtype=float), np.asarray(radii, dtype=float)])
@@ -54,17 +60,17 @@ class Tube:
 
     def __call__(self, p: Floats) -> Floats:
         """Distance [mm]: from the nearest of a few samples, Newton's method finds the foot on the curve."""
-        squares = np.einsum("ij,ij->i", self._samples, self._samples) - 2.0 * p @ self._samples.T
-        at = self._starts[np.argmin(squares, axis=1)]
+        squares = np.einsum("ij,ij->i", self._samples, self._samples)[:, None] - 2.0 * self._samples @ p
+        at = self._starts[np.argmin(squares, axis=0)]
         for _ in range(2):
-            away = self._path(at)[:, :3] - p
-            tangent, bend = self._path(at, 1)[:, :3], self._path(at, 2)[:, :3]
-            speed = np.einsum("ij,ij->i", tangent, tangent)
-            curvature = np.maximum(speed + np.einsum("ij,ij->i", away, bend), 0.3 * speed)
-            at = np.clip(at - np.einsum("ij,ij->i", away, tangent) / curvature, 0.0, self._end)
-        foot = self._path(at)
-        away = p - foot[:, :3]
-        return np.sqrt(np.einsum("ij,ij->i", away, away)) - foot[:, 3]
+            away = self._path(at).T[:3] - p
+            tangent, bend = self._path(at, 1).T, self._path(at, 2).T
+            speed = _dot(tangent, tangent)
+            curvature = np.maximum(speed + _dot(away, bend), 0.3 * speed)
+            at = np.clip(at - _dot(away, tangent) / curvature, 0.0, self._end)
+        foot = self._path(at).T
+        away = p - foot[:3]
+        return np.sqrt(_dot(away, away)) - foot[3]
 
 
 def join(a: Floats, b: Floats, blend: float) -> Floats:
@@ -85,10 +91,18 @@ def carve(a: Floats, b: Floats, blend: float) -> Floats:
 
 def bump(p: Floats, centre: Vector, widths: Vector) -> Floats:
     """A smooth weight, 1 at the centre and fading over ``widths``: the touch of a thumb."""
-    q = (p - np.asarray(centre)) / np.asarray(widths)
-    return np.exp(-np.einsum("ij,ij->i", q, q))
+    q = (p - _column(centre)) / _column(widths)
+    return np.exp(-_dot(q, q))
 
 
-def inside_box(p: Floats, low: Vector, high: Vector) -> np.ndarray:
-    """Which points lie in an axis-aligned box; shapes far from a point need not be worked out there."""
-    return ((p > np.asarray(low)) & (p < np.asarray(high))).all(axis=1)
+def shaped(
+    p: Floats, field: Floats, low: Vector, high: Vector, shape: Callable[[Floats, Floats], Floats]
+) -> Floats:
+    """``field`` with its part in an axis-aligned box replaced by ``shape(points, field)`` of that part.
+
+    Away from the box the shape must change nothing: this only saves the work.
+    """
+    near = ((p > _column(low)) & (p < _column(high))).all(axis=0)
+    result = field.copy()
+    result[near] = shape(p[:, near], field[near])
+    return result

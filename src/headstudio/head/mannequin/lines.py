@@ -15,10 +15,11 @@ _REACH = 5  # how far fairing reaches along the height [mm]
 
 
 class Section(NamedTuple):
-    """One level section, millimetres: two half superellipses that meet where the body is broadest.
+    """One level section, millimetres: two halves of full ellipses that meet where the body is broadest.
 
     height: y of the section. half_breadth: largest x. widest: z where it is reached. front, back: z of the two ends on
-    the middle line. squareness: exponent of the superellipse, 2 being an ellipse, for the front and the back half.
+    the middle line. fullness: how far the front and the back half go beyond an ellipse on the diagonals, 0 being an
+    ellipse.
     """
 
     height: float
@@ -26,8 +27,8 @@ class Section(NamedTuple):
     widest: float
     front: float
     back: float
-    front_squareness: float = 2.0
-    back_squareness: float = 2.0
+    front_fullness: float = 0.0
+    back_fullness: float = 0.0
 
 
 class _Batten:
@@ -63,19 +64,17 @@ class Lines:
         self._shape = _Batten(height[broad], shape)
 
     def __call__(self, p: Floats) -> Floats:
-        """Distance [mm] to first order, at points of shape (n, 3)."""
-        y = p[:, 1]
+        """Distance [mm] to first order, at points of shape (3, n)."""
+        x, y, z = p
         slope = self._breadth_squared(y, 1)
         beyond = y - np.clip(y, self._breadth_squared.low, self._breadth_squared.high)
         squared = self._breadth_squared(y) + slope * beyond
-        widest, front_ratio, back_ratio, front_power, back_power = self._shape(y).T
-        depth = p[:, 2] - widest
-        ahead = depth > 0
-        ratio, power = np.where(ahead, front_ratio, back_ratio), np.where(ahead, front_power, back_power)
-        across, along = np.abs(p[:, 0]) + 1e-6, np.abs(depth) * ratio + 1e-6
-        radius = (across**power + along**power) ** (1.0 / power)
-        value = radius**2 - squared
-        gradient = np.hypot(
-            2.0 * radius * np.hypot((across / radius) ** (power - 1), ratio * (along / radius) ** (power - 1)), slope
-        )
+        widest, front_ratio, back_ratio, front_fullness, back_fullness = self._shape(y).T
+        ahead = z > widest
+        ratio = np.where(ahead, front_ratio, back_ratio)
+        fullness = np.where(ahead, front_fullness, back_fullness)
+        across, along = x * x, (ratio * (z - widest)) ** 2
+        round_ = across + along + 1e-9
+        value = round_ - 2.0 * fullness * across * along / round_ - squared
+        gradient = np.sqrt(4.0 * (across + ratio**2 * along) + slope**2)
         return value / np.maximum(gradient, 20.0)

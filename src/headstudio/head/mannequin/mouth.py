@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..mesh import Floats
-from .fields import Tube, carve, cone, ellipsoid, inside_box, join
+from .fields import Tube, carve, cone, ellipsoid, join, shaped
 
 UPPER_LIP = Tube(
     [(-5, -22.8, 102.5), (0, -23.8, 103.2), (5, -22.8, 102.5), (14, -25.4, 98.6), (23.5, -28.8, 89.5)],
@@ -19,14 +19,13 @@ PARTING = Tube(
 )
 
 
+def _shape(p: Floats, head: Floats) -> Floats:
+    head = join(head, join(UPPER_LIP(p), LOWER_LIP(p), 1.5), 5)
+    head = carve(head, PARTING(p), 2.5)
+    head = carve(head, cone(p, (0, -10, 110.5), (0, -18, 112.0), 2.4, 3.2), 6)  # philtrum
+    return carve(head, ellipsoid(p, (0, -44.5, 106), (16, 4, 6)), 9)  # fold above the chin
+
+
 def mouth(p: Floats, head: Floats) -> Floats:
     """``head`` with lips, for points with x >= 0 [mm]."""
-    near = inside_box(p, (-1, -62, 50), (50, 5, 140))
-    q, h = p[near], head[near]
-    h = join(h, join(UPPER_LIP(q), LOWER_LIP(q), 1.5), 5)
-    h = carve(h, PARTING(q), 2.5)
-    h = carve(h, cone(q, (0, -10, 110.5), (0, -18, 112.0), 2.4, 3.2), 6)  # philtrum
-    h = carve(h, ellipsoid(q, (0, -44.5, 106), (16, 4, 6)), 9)  # fold above the chin
-    result = head.copy()
-    result[near] = h
-    return result
+    return shaped(p, head, (-1, -62, 50), (50, 5, 140), _shape)

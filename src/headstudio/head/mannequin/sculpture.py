@@ -5,22 +5,25 @@ from __future__ import annotations
 import numpy as np
 
 from ..mesh import Floats
-from .bust import neck, torso
+from .bust import bust
 from .ears import ears
 from .eyes import eyes
-from .fields import join
+from .fields import FAR, shaped
 from .mouth import mouth
 from .nose import nose
 from .skull import skull
 
 
+def _head(p: Floats, _: Floats) -> Floats:
+    return mouth(p, nose(p, eyes(p, skull(p))))
+
+
 def sculpture(points: Floats) -> Floats:
-    """Distance to the skin of the mannequin [mm], the same on the left and on the right."""
-    p = points.copy()
-    p[:, 0] = np.abs(p[:, 0])
-    head = skull(p)
-    head = eyes(p, head)
-    head = nose(p, head)
-    head = mouth(p, head)
-    body = join(head, join(neck(p), torso(p), 34), 16)
-    return ears(p, body)
+    """Distance to the skin of the mannequin [mm] at ``points`` [mm], shape (n, 3).
+
+    To first order near the skin. The same on the left and on the right: only the left half is modelled.
+    """
+    p = np.ascontiguousarray(points.T)
+    p[0] = np.abs(p[0])
+    head = shaped(p, np.full(len(points), FAR), (-1, -120, -400), (400, 400, 400), _head)
+    return ears(p, bust(p, head))
