@@ -73,6 +73,9 @@ class Look:
     billboard_stretch: float = number(
         2.2, "Billboard stretch", "", 1.0, 6.0, "Length of a billboard over its width.", live=True
     )
+    ribbons: int = integer(
+        2, "Ribbons", 1, 12, "How many narrow billboards share the place of one particle: more look finer, and cost.", live=True
+    )
     hair_opacity: float = number(0.8, "Opacity", "", 0.05, 1.0, "Opacity of a billboard in its middle.", live=True)
     forward_scatter: float = number(
         0.3,

@@ -1,0 +1,69 @@
+#version 330
+#include "common/scene.glsl"
+#include "common/shadow.glsl"
+uniform vec3 skin_colour;
+uniform vec3 hair_colour;
+in vec3 v_place;
+in vec3 v_rest;
+in vec3 v_normal;
+in vec4 v_paint;  // occlusion, lips, brows, flush
+in float v_cover;
+out vec4 colour;
+
+// Light creeps around the edge of the shadow, red the farthest, since red travels farthest under the skin.
+const vec3 wrap = vec3(0.34, 0.15, 0.09);
+
+float lobe(float n_h, float n_l, float n_v, float roughness) {
+    float a2 = roughness * roughness * roughness * roughness;
+    float d = n_h * n_h * (a2 - 1.0) + 1.0;
+    float k = roughness * roughness * 0.5;
+    return a2 / (3.14159 * d * d) / (4.0 * mix(n_l, 1.0, k) * mix(n_v, 1.0, k));
+}
+
+float grain(vec3 p) {
+    return fract(sin(dot(floor(p), vec3(12.9898, 78.233, 37.719))) * 43758.5453);
+}
+
+void main() {
+    vec3 n = normalize(v_normal);
+    vec3 to_eye = normalize(eye.xyz - v_place);
+    vec3 l = to_light.xyz;
+    if (!gl_FrontFacing) n = -n;
+
+    float lips = v_paint.y, brows = v_paint.z, flush = v_paint.w;
+    vec3 albedo = skin_colour;
+    albedo *= mix(vec3(1.0), vec3(1.06, 0.80, 0.78), flush);
+    albedo = mix(albedo, skin_colour * vec3(0.86, 0.44, 0.46), lips * 0.85);
+    // Brow hairs lie outwards along the arch: fine strokes, not a stain.
+    float stroke = grain(vec3(v_rest.x * 900.0 + v_rest.y * 500.0, v_rest.y * 150.0, 0.0));
+    albedo = mix(albedo, hair_colour * 0.35, smoothstep(0.15, 0.75, brows * (0.65 + 0.6 * stroke)) * 0.85);
+    float ground_cover = smoothstep(0.0, 1.0, v_cover);
+    albedo = mix(albedo, hair_colour * 0.30, ground_cover * 0.92);
+
+    float lit = 1.0;
+    if (shadow.x > 0.5) {
+        float bias = 0.0015 + 0.003 * (1.0 - max(dot(n, l), 0.0));
+        lit = past_objects(v_place + n * 0.0015, bias, 0.004) * through_hair(v_place, 0.004);
+    }
+    vec3 soft_lit = vec3(pow(lit, 0.75), lit, lit);
+
+    float n_l = dot(n, l);
+    vec3 wrapped = clamp((vec3(n_l) + wrap) / (1.0 + wrap), 0.0, 1.0);
+    vec3 diffuse = mix(wrapped * wrapped, vec3(max(n_l, 0.0)), 0.35) * soft_lit;
+
+    float open = 1.0 - v_paint.x;
+    // Light bounces between nearby skin: cavities go red-brown before they go black.
+    vec3 open_tint = pow(vec3(max(open, 0.02)), vec3(0.75, 1.05, 1.15));
+    vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * open_tint;
+
+    vec3 h = normalize(l + to_eye);
+    float n_h = max(dot(n, h), 0.0), n_v = max(dot(n, to_eye), 0.0), front = max(n_l, 0.0);
+    float fresnel = 0.028 + 0.972 * pow(1.0 - max(dot(h, to_eye), 0.0), 5.0);
+    float rough = mix(0.48, 0.34, lips);
+    float shine = mix(lobe(n_h, front, n_v, rough), lobe(n_h, front, n_v, rough * 0.58), 0.28 + 0.2 * lips);
+    shine *= fresnel * front * lit * 3.14159 * (1.0 - 0.9 * max(ground_cover, brows));
+    float rim = 0.028 + 0.30 * pow(1.0 - n_v, 5.0);
+    vec3 sheen = mix(ground.rgb, sky.rgb, clamp(reflect(-to_eye, n).y * 0.5 + 0.5, 0.0, 1.0)) * rim * open * open;
+
+    colour = vec4(albedo * (radiance.rgb * diffuse + soft) + radiance.rgb * shine + sheen * (1.0 - ground_cover), 1.0);
+}

@@ -1,0 +1,23 @@
+#version 330
+// Linear light with premultiplied alpha, as a picture in sRGB over the background.
+uniform sampler2D linear_picture;
+uniform vec3 background;  // linear
+uniform vec2 size;
+out vec4 colour;
+
+// A mild film curve: straight in the shadows, a long soft shoulder, white at about 6.
+vec3 film(vec3 x) {
+    return x * (1.0 + x / 18.0) / (1.0 + 0.62 * x);
+}
+
+vec3 srgb(vec3 c) {
+    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+
+void main() {
+    vec4 light = texelFetch(linear_picture, ivec2(gl_FragCoord.xy), 0);
+    vec3 shown = light.a > 0.0 ? film(max(light.rgb, 0.0) / light.a) * light.a : vec3(0.0);
+    vec2 off = (gl_FragCoord.xy / size - vec2(0.5, 0.55)) * vec2(size.x / size.y, 1.0);
+    vec3 behind = background * mix(1.25, 0.62, smoothstep(0.0, 0.9, length(off)));
+    colour = vec4(srgb(clamp(shown + behind * (1.0 - light.a), 0.0, 1.0)), 1.0);
+}

@@ -1,0 +1,59 @@
+"""The OpenGL context and the programs that run in it."""
+
+from __future__ import annotations
+
+import moderngl
+
+from ..resources import shader
+
+GL_VERSION = 330
+"""OpenGL 3.3 core is all that drawing needs; macOS stops at 4.1."""
+
+
+class RenderError(RuntimeError):
+    """No picture can be drawn on this machine, or of this size. The message is one line for the user."""
+
+
+def headless_context() -> moderngl.Context:
+    """An OpenGL 3.3 context without a window, through EGL (Mesa's llvmpipe where there is no graphics card).
+
+    Raises RenderError, in one line, if there is none.
+    """
+    try:
+        return moderngl.create_context(standalone=True, require=GL_VERSION, backend="egl")  # type: ignore[arg-type]
+    except Exception as error:  # glcontext raises bare Exception, moderngl its own and ValueError
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise RenderError(
+            f"no OpenGL 3.3 without a window ({reason}); on Debian: apt install libegl1 libgl1 libgl1-mesa-dri"
+        ) from None
+
+
+def is_software(context: moderngl.Context) -> bool:
+    """True on Mesa's llvmpipe, whose pictures do not change from machine to machine by more than a rounding."""
+    return "llvmpipe" in context.info["GL_RENDERER"]
+
+
+def load_program(context: moderngl.Context, vertex: str, fragment: str) -> moderngl.Program:
+    """The program made of two shaders below ``shaders/``; ``#include "common/x.glsl"`` brings in a shared piece.
+
+    The uniform block ``Scene``, if the program has it, is bound to slot 0. Raises RenderError with the compiler's words
+    if a shader does not compile.
+    """
+    for include in sorted(shader("common").glob("*.glsl")):
+        context.includes[f"common/{include.name}"] = include.read_text()
+    try:
+        program = context.program(
+            vertex_shader=shader(vertex).read_text(), fragment_shader=shader(fragment).read_text()
+        )
+    except moderngl.Error as error:
+        raise RenderError(f"{vertex} with {fragment}: {error}") from None
+    if "Scene" in program:
+        program["Scene"].binding = 0  # type: ignore[union-attr]
+    return program
+
+
+def set_uniforms(program: moderngl.Program, **values: object) -> None:
+    """Set uniforms by name; one that the compiler found no use for is passed over."""
+    for name, value in values.items():
+        if name in program:
+            program[name].value = value  # type: ignore[union-attr]

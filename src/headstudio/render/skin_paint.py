@@ -1,0 +1,133 @@
+"""What the skin shader cannot see for itself, painted on the vertices once: occlusion, lips, brows, flush, scalp.
+
+Heads come with no texture, so the places that are not skin-coloured are found from the landmarks.
+"""
+
+from __future__ import annotations
+
+import igl
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..head.head import Head, Landmarks
+from ..head.mesh import Floats, Ints, TriangleMesh
+from ..lcp.model import HairModel
+
+_OCCLUSION_RAYS = 48
+_OCCLUSION_DETAIL = 0.005
+_SCALP_REACH = (0.006, 0.016)
+
+
+def clustered(vertices: Floats, cell: float) -> tuple[Ints, Ints]:
+    """One vertex for every cube of side ``cell`` [m] that holds any.
+
+    Returns the representatives, (k,), and the representative's place in them for every vertex, (n,).
+    """
+    cells = np.floor((vertices - vertices.min(axis=0)) / cell).astype(np.int64)
+    extent = cells.max(axis=0) + 1
+    key = (cells[:, 0] * extent[1] + cells[:, 1]) * extent[2] + cells[:, 2]
+    _, representatives, cluster = np.unique(key, return_index=True, return_inverse=True)
+    return representatives, cluster
+
+
+def coarse_faces(mesh: TriangleMesh, cell: float) -> Ints:
+    """Faces over the same vertices, with details below ``cell`` [m] left out, (k, 3): good enough to cast a shadow."""
+    representatives, cluster = clustered(mesh.vertices, cell)
+    corners = cluster[mesh.faces]
+    whole = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
+    return representatives[corners[whole]]
+
+
+def occlusion(mesh: TriangleMesh) -> Floats:
+    """How much of its own sky every vertex is cut off from by the mesh, 0 to 1, (n,).
+
+    Rays are sent from one vertex every 5 mm; the others take the mean of the nearest that face the same way.
+    """
+    seeds, _ = clustered(mesh.vertices, _OCCLUSION_DETAIL)
+    normals = mesh.vertex_normals
+    hidden = igl.ambient_occlusion(mesh.vertices, mesh.faces, mesh.vertices[seeds], normals[seeds], _OCCLUSION_RAYS)
+    distance, near = cKDTree(mesh.vertices[seeds]).query(mesh.vertices, k=8)
+    same_side = np.einsum("ni,nki->nk", normals, normals[seeds][near])
+    weight = np.clip(same_side, 1e-3, 1.0) ** 2 / (distance**2 + (0.5 * _OCCLUSION_DETAIL) ** 2)
+    return np.einsum("nk,nk->n", weight, hidden[near]) / weight.sum(axis=1)
+
+
+def paint(head: Head) -> Floats:
+    """Occlusion, lips, brows and flush of every vertex of the skin, 0 to 1, (n, 4)."""
+    points, marks = head.skin.vertices, head.landmarks
+    return np.stack([occlusion(head.skin), _lips(points, marks), _brows(points, marks), _flush(points, marks)], axis=1)
+
+
+def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
+    """How densely hair roots stand on the skin, 0 to 1, (n,): the ground that hair grows from is never bare skin."""
+    if hair is None:
+        return np.zeros(len(head.skin.vertices))
+    distance, _ = cKDTree(hair.root_points).query(head.skin.vertices)
+    near, far = _SCALP_REACH
+    return 1.0 - _smoothstep(near, far, distance)
+
+
+def _smoothstep(low: float, high: float, value: Floats) -> Floats:
+    t = np.clip((value - low) / (high - low), 0.0, 1.0)
+    return t * t * (3 - 2 * t)
+
+
+def _face_axes(marks: Landmarks) -> tuple[Floats, Floats]:
+    """Unit directions to the person's left and up, along the face."""
+    left = marks.left_eye - marks.right_eye
+    left = left / np.linalg.norm(left)
+    up = marks.nasion - marks.chin
+    up = up - (up @ left) * left
+    return left, up / np.linalg.norm(up)
+
+
+def _lips(points: Floats, marks: Landmarks) -> Floats:
+    """Red of the lips: between two arcs from corner to corner of the mouth."""
+    left, up = _face_axes(marks)
+    middle = (marks.mouth_left + marks.mouth_right) / 2
+    half = np.linalg.norm(marks.mouth_left - marks.mouth_right) / 2
+    across = ((points - middle) @ left) / half
+    height = ((points - middle) @ up) / half
+    arch = np.sqrt(np.clip(1 - across**2, 0, 1))
+    bow = 1 - 0.22 * np.exp(-((across / 0.16) ** 2))
+    upper, lower = 0.33 * arch * bow, 0.40 * arch
+    inside = np.where(height > 0, height / np.maximum(upper, 1e-6), -height / np.maximum(lower, 1e-6))
+    front = _smoothstep(-0.035, -0.015, (points - middle) @ np.cross(left, up))
+    return (1 - _smoothstep(0.75, 1.15, inside)) * front * (np.abs(across) < 1)
+
+
+def _brows(points: Floats, marks: Landmarks) -> Floats:
+    """Two arcs above the eyes, thick beside the nose and thin at the temple."""
+    left, up = _face_axes(marks)
+    out = np.cross(left, up)
+    span = np.linalg.norm(marks.left_eye - marks.right_eye)
+    cover = np.zeros(len(points))
+    for eye, side in ((marks.left_eye, 1.0), (marks.right_eye, -1.0)):
+        along = side * ((points - eye) @ left) / span
+        t = np.clip((along + 0.30) / 0.72, 0, 1)
+        arc = span * (0.30 + 0.11 * np.sin(np.pi * np.clip(t, 0, 1) ** 1.3) - 0.05 * t)
+        thickness = span * (0.062 * (1 - t) ** 0.7 + 0.018)
+        off = np.abs((points - eye) @ up - arc) / thickness
+        ends = _smoothstep(-0.34, -0.24, along) * (1 - _smoothstep(0.34, 0.46, along))
+        front = _smoothstep(-0.04, -0.02, (points - eye) @ out)
+        cover = np.maximum(cover, (1 - _smoothstep(0.3, 1.0, off)) * ends * front)
+    return cover
+
+
+def _flush(points: Floats, marks: Landmarks) -> Floats:
+    """Where blood shows through: nose, cheeks, chin and ears."""
+    left, up = _face_axes(marks)
+    out = np.cross(left, up)
+    span = np.linalg.norm(marks.left_eye - marks.right_eye)
+    cheek = np.array([0.62, -0.72, -0.05])
+    spots = [(marks.nose_tip, 0.32, 0.8), (marks.chin, 0.30, 0.35)]
+    middle = (marks.left_eye + marks.right_eye) / 2
+    for side in (1.0, -1.0):
+        place = middle + span * (side * cheek[0] * left + cheek[1] * up + cheek[2] * out)
+        spots.append((place, 0.45, 0.7))
+    spots += [(marks.left_tragus - 0.02 * out, 0.42, 0.9), (marks.right_tragus - 0.02 * out, 0.42, 0.9)]
+    flush = [
+        strength * np.exp(-((np.linalg.norm(points - place, axis=1) / (size * span)) ** 2))
+        for place, size, strength in spots
+    ]
+    return np.clip(np.sum(flush, axis=0), 0.0, 1.0)

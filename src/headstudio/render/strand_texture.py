@@ -1,0 +1,101 @@
+"""The hair texture: a strip of many fine strands, made by code from a seed.
+
+The strip repeats across the hair (u) and does not repeat along it (v: root to tip). Every billboard shows its own
+window of it, so that no two billboards carry the same strands. Red is the opacity of the strands, green their tone
+(how light a strand is, 0.5 being the colour of the hair).
+
+Written into the tree, and committed, by ``python -m headstudio.render.strand_texture assets/textures/strands.png``.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from scipy.ndimage import gaussian_filter1d
+
+from ..head.mesh import Floats
+
+WIDTH, HEIGHT = 1024, 256
+STRANDS = 420
+LOCKS = 44
+SEED = 7
+_OVERSAMPLING = 4
+
+
+def strand_texture(seed: int = SEED) -> NDArray[np.uint8]:
+    """Opacity, tone and nothing, shape (HEIGHT, WIDTH, 3); row 0 is the rootward end.
+
+    Strands gather in locks of a few, as hair does: it is the locks that are still seen when a billboard is only a dozen
+    pixels wide. Each strand starts and ends somewhere of its own, so that billboards end ragged and not in an edge.
+    """
+    rng = np.random.default_rng(seed)
+    lock_of = rng.integers(0, LOCKS, STRANDS)
+    lock_centre = (np.arange(LOCKS) + rng.uniform(-0.4, 0.4, LOCKS)) / LOCKS
+    lock_wave = _waves(rng, LOCKS, sigma=60, size=0.35 / LOCKS)
+    strand_wave = _waves(rng, STRANDS, sigma=45, size=0.22 / LOCKS)
+    home = lock_centre[lock_of] + rng.normal(0, 0.33 / LOCKS, STRANDS)
+    centres = home[:, None] + lock_wave[lock_of] + strand_wave
+
+    v = (np.arange(HEIGHT) + 0.5) / HEIGHT
+    start = rng.uniform(-0.05, 0.30, STRANDS)[:, None]
+    end = rng.uniform(0.62, 1.0, STRANDS)[:, None]
+    grown = np.clip((v - start) / 0.12, 0, 1) * np.clip((end - v) / 0.30, 0, 1)
+    half_width = rng.lognormal(np.log(1.5 / WIDTH), 0.25, STRANDS)[:, None] * np.sqrt(grown)
+
+    lock_tone = rng.normal(0, 0.13, LOCKS)
+    tone = np.clip(0.5 + lock_tone[lock_of] + rng.normal(0, 0.11, STRANDS), 0.08, 0.95)
+    opacity = rng.uniform(0.55, 1.0, STRANDS)[:, None] * np.sqrt(grown)
+    # The frontmost strand wins a texel; strands deep in their lock get less light.
+    height = rng.uniform(0, 1, STRANDS)
+    tone *= 0.72 + 0.4 * height
+    return _rasterised(centres % 1.0, half_width, opacity, tone, height)
+
+
+def _waves(rng: np.random.Generator, count: int, sigma: float, size: float) -> Floats:
+    """Smooth random curves along v with standard deviation ``size``, shape (count, HEIGHT)."""
+    noise = gaussian_filter1d(rng.normal(size=(count, 2 * HEIGHT)), sigma, axis=1)[:, HEIGHT // 2 : -HEIGHT // 2]
+    return noise * (size / noise.std())
+
+
+def _rasterised(
+    centres: Floats, half_width: Floats, opacity: Floats, tone: Floats, height: Floats
+) -> NDArray[np.uint8]:
+    """Strands as an image, (HEIGHT, WIDTH, 3).
+
+    centres, half_width [widths of the image] and opacity: (strands, rows). tone, height: (strands,).
+    """
+    columns = WIDTH * _OVERSAMPLING
+    order = np.argsort(height)
+    reach = int(np.ceil(half_width.max() * columns)) + 1
+    offsets = np.arange(-reach, reach + 1)
+    image = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
+    empty_tone = float(np.average(tone))
+    for row in range(HEIGHT):
+        middle = np.rint(centres[order, row] * columns).astype(int)
+        distance = np.abs(offsets[None, :]) / columns / np.maximum(half_width[order, row], 1e-9)[:, None]
+        inside = distance < 1
+        texels = (middle[:, None] + offsets[None, :])[inside] % columns
+        strand = np.broadcast_to(np.arange(len(order))[:, None], inside.shape)[inside]
+        front = np.full(columns, -1)
+        np.maximum.at(front, texels, strand)
+        covered = front >= 0
+        alpha = np.where(covered, opacity[order[front], row], 0.0)
+        tones = np.where(covered, tone[order[front]], empty_tone)
+        alpha = alpha.reshape(WIDTH, _OVERSAMPLING)
+        weight = alpha + 1e-3
+        image[row, :, 0] = np.rint(255 * alpha.mean(axis=1))
+        image[row, :, 1] = np.rint(255 * (tones.reshape(WIDTH, _OVERSAMPLING) * weight).sum(1) / weight.sum(1))
+    return image
+
+
+def main() -> None:
+    """Write the texture to the path given on the command line."""
+    Image.fromarray(strand_texture()).save(Path(sys.argv[1]), optimize=True)
+
+
+if __name__ == "__main__":
+    main()

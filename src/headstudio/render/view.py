@@ -1,0 +1,78 @@
+"""Where the picture is taken from, and where the light comes from, as matrices."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..head.mesh import Floats
+from ..scene.settings import Camera, Look
+
+_UP = np.array([0.0, 1.0, 0.0])
+# The bust and its hair fit into this much around the point looked at [m].
+_REACH = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A camera or a parallel light.
+
+    clip_from_world: 4 x 4, for column vectors. eye: where the camera stands [m], or for a light some point on its side.
+    forward: unit direction of looking, (3,). right, up: unit, (3,). near, far: distances of the clip planes [m].
+    """
+
+    clip_from_world: Floats
+    eye: Floats
+    forward: Floats
+    right: Floats
+    up: Floats
+    near: float
+    far: float
+
+    def depth(self, points: Floats) -> Floats:
+        """How far points [m], (..., 3), lie in front of the eye along the direction of looking [m], (...,)."""
+        return (points - self.eye) @ self.forward
+
+
+def orbit_direction(azimuth: float, elevation: float) -> Floats:
+    """Unit vector from the head to something that stands at these angles [rad]: azimuth 0 in front, 90 degrees on the
+    person's left."""
+    level = np.cos(elevation)
+    return np.array([level * np.sin(azimuth), np.sin(elevation), level * np.cos(azimuth)])
+
+
+def camera_view(camera: Camera, aspect: float) -> View:
+    """The perspective view of an orbiting camera; ``aspect`` is width over height."""
+    target = np.array([camera.target_x, camera.target_y, camera.target_z])
+    eye = target + camera.distance * orbit_direction(camera.azimuth, camera.elevation)
+    near = max(0.02 * camera.distance, camera.distance - _REACH)
+    far = camera.distance + _REACH
+    focal = 1.0 / np.tan(camera.field_of_view / 2)
+    projection = np.zeros((4, 4))
+    projection[0, 0] = focal / aspect
+    projection[1, 1] = focal
+    projection[2, 2:] = (near + far) / (near - far), 2 * near * far / (near - far)
+    projection[3, 2] = -1.0
+    return _view(eye, target - eye, projection, near, far)
+
+
+def light_view(look: Look, centre: Floats, radius: float) -> View:
+    """The parallel projection from the light onto the sphere around ``centre`` [m] with ``radius`` [m]."""
+    to_light = orbit_direction(look.light_azimuth, look.light_height)
+    projection = np.diag([1 / radius, 1 / radius, -1 / radius, 1.0])
+    projection[2, 3] = -1.0
+    return _view(centre + radius * to_light, -to_light, projection, 0.0, 2 * radius)
+
+
+def _view(eye: Floats, direction: Floats, projection: Floats, near: float, far: float) -> View:
+    forward = direction / np.linalg.norm(direction)
+    # Straight up or down "up" names no direction: then the face's own (+Z) does.
+    reference = _UP if abs(forward[1]) < 0.9999 else np.array([0.0, 0.0, np.sign(forward[1])])
+    right = np.cross(forward, reference)
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    look_at = np.eye(4)
+    look_at[:3, :3] = right, up, -forward
+    look_at[:3, 3] = -look_at[:3, :3] @ eye
+    return View(projection @ look_at, eye, forward, right, up, near, far)
