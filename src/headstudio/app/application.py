@@ -1,30 +1,132 @@
-"""The application: a studio, its window, and the commands that connect them."""
+"""The application: a studio in its window, frame by frame."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from pathlib import Path
 
 from imgui_bundle import imgui
-from PIL import Image
 
-from ..params import ParameterError
-from ..scene.project import SUFFIX
-from ..scene.recent import recent_projects
-from . import navigation, shell, status, theme, toasts
-from .commands import Command, run_pressed
+from . import shell, status, theme, toasts
+from .actions import Actions
+from .commands import run_pressed
 from .dialogs import Dialogs
 from .editors import EDITORS, Editor
-from .file_browser import FileWish
 from .parameter_rows import ParameterRows
-from .recorder import FILM_ENDINGS, Recorder
+from .recorder import Recorder
 from .sidebar import Sidebar
 from .studio import Studio
+from .tools.tool import Tool
 from .transport import Transport
 from .ui import Ui
 from .viewport import Viewport
 from .window import Window
 
-HEAD_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
 IDLE_WAIT = 0.1  # [s] between two looks for events while nothing moves
+
+
+class Application:
+    """Joins studio and window. ``frame`` does everything once; ``run`` does it until the window is closed."""
+
+    def __init__(self, window: Window, studio: Studio) -> None:
+        self.window = window
+        self.studio = studio
+        self.ui = Ui(theme.apply(window.scale), window.scale)
+        self.sizes = shell.Sizes()
+        self.recorder = Recorder()
+        self.dialogs = Dialogs(native=not window.headless)
+        self.rows = ParameterRows(studio)
+        self._tools: dict[str, list[Tool]] = {
+            editor.label: [make(studio) for make in editor.tools] for editor in EDITORS
+        }
+        self.editor = EDITORS[0]
+        self.viewport = Viewport(studio, window.gl, self._tools[self.editor.label][0])
+        self.actions = Actions(self)
+        self.commands = self.actions.commands()
+        self.sidebar = Sidebar(self.rows, self.viewport)
+        self.transport = Transport(studio, self.recorder, self.actions.record)
+        self.closed = False
+        window.on_drop = self.actions.take_dropped
+        self._last = time.perf_counter()
+
+    def run(self) -> None:
+        """Go on until the window is closed."""
+        while not self.closed:
+            self.frame(wait=IDLE_WAIT if self._idle else 0.0)
+        if self.recorder.recording:
+            self.recorder.stop()
+
+    def frame(self, seconds: float | None = None, wait: float = 0.0) -> None:
+        """One frame. ``seconds``: its length for everything that moves, None for the clock on the wall."""
+        now = time.perf_counter()
+        wall, self._last = (now - self._last if seconds is None else seconds), now
+        self.window.begin_frame(seconds, wait)
+        if self.window.close_asked:
+            self.window.keep_open()
+            self.actions.quit()
+        self.studio.tick(wall, self.recorder.frame_seconds)
+        self._draw()
+        self.window.set_title(f"{self.studio.work.name}{' *' if self.studio.work.modified else ''} - headstudio")
+        self.window.end_frame(theme.GROUND)
+        self._record()
+
+    @property
+    def _idle(self) -> bool:
+        """Whether nothing changes until the user does something."""
+        studio = self.studio
+        return not (studio.playback.playing or studio.building or studio.messages.shown or imgui.is_any_item_active())
+
+    def _draw(self) -> None:
+        self.ui.new_frame()
+        if not self.dialogs.asking:
+            run_pressed(self.commands)
+        top = shell.menu_bar(self.ui, self.commands, {"Open...": self.actions.recent_menu})
+        layout = shell.lay_out(self.ui, self.sizes, top)
+        shell.region("Left", layout.left, self._draw_left, scrolls=True)
+        shell.region("View", layout.view, lambda: self._draw_view(layout), plain=True)
+        shell.region("Foot", layout.foot, lambda: self.transport.draw(self.ui))
+        shell.region("Right", layout.right, self._draw_right, scrolls=True)
+        shell.edges(self.ui, self.sizes, layout)
+        shell.region("Status", layout.status, lambda: status.draw(self.ui, self.studio, layout.status), plain=True)
+        self.dialogs.draw(self.ui, self.commands)
+        self.rows.finish_frame()
+
+    def _draw_left(self) -> None:
+        self._draw_tabs()
+        self.sidebar.draw(self.ui, self._tools[self.editor.label])
+
+    def _draw_tabs(self) -> None:
+        """The tabs of the editors; a single editor needs none."""
+        if len(EDITORS) == 1:
+            return
+        if imgui.begin_tab_bar("##editors"):
+            for editor in EDITORS:
+                opened, _ = imgui.begin_tab_item(editor.label)
+                self.ui.note(editor.label)
+                if opened:
+                    imgui.end_tab_item()
+                    self._open_editor(editor)
+            imgui.end_tab_bar()
+
+    def _open_editor(self, editor: Editor) -> None:
+        if editor is not self.editor:
+            self.editor = editor
+            self.viewport.tool = self._tools[editor.label][0]
+
+    def _draw_view(self, layout: shell.Layout) -> None:
+        view = layout.view
+        self.viewport.draw(self.ui, (view.width, view.height), self.window.pixels_per_unit)
+        status.progress(self.ui, self.studio, view)
+        toasts.draw(self.ui, self.studio.messages, view)
+
+    def _draw_right(self) -> None:
+        self.rows.search(self.ui)
+        for panel in self.editor.panels:
+            self.rows.panel(self.ui, panel)
+
+    def _record(self) -> None:
+        if not self.recorder.recording or self.studio.stage is None:
+            return
+        with self.studio.reporting() as outcome:
+            self.recorder.add(self.viewport.picture())
+        if not outcome.good:
+            self.recorder.stop()

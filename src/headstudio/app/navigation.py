@@ -12,13 +12,6 @@ from ..params import parameters_of
 from ..render.view import camera_view
 from ..scene.settings import Camera
 
-VIEWS = {
-    "Front": (0.0, 0.0),
-    "Left": (math.pi / 2, 0.0),
-    "Right": (-math.pi / 2, 0.0),
-    "Back": (math.pi, 0.0),
-    "Top": (0.0, math.radians(89)),
-}
 ORBIT_RATE = math.pi  # a drag over the height of the view turns by half a turn
 ZOOM_RATE = 1.12  # one notch of the wheel
 
@@ -51,12 +44,6 @@ def frame(camera: Camera, points: Floats, aspect: float, margin: float = 1.08) -
     # Nearest distance at which each point is still inside the side planes of the view.
     needed = np.maximum(np.abs(offset @ up) / rise, np.abs(offset @ right) / (rise * aspect)) + offset @ back
     return _looking_at(replace(camera, distance=float(needed.max())), centre)
-
-
-def seen_from(camera: Camera, view: str) -> Camera:
-    """The same target from one of VIEWS."""
-    azimuth, elevation = VIEWS[view]
-    return replace(camera, azimuth=azimuth, elevation=elevation)
 
 
 def target(camera: Camera) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -164,7 +165,8 @@ def _colour(ui: Ui, declared: Parameter, value: tuple[float, float, float]) -> t
     return changed, (red, green, blue) if changed else value
 
 
-_WIDGETS = {
+# What draws each kind of parameter: takes and returns its value, and tells whether it changed.
+_WIDGETS: dict[str, Callable[[Ui, Parameter, Any], tuple[bool, Any]]] = {
     "number": _number,
     "integer": _integer,
     "switch": _switch,
@@ -188,9 +190,7 @@ def _draw_bar(ui: Ui, fraction: float) -> None:
     corner = (start.x + width, start.y + height)
     hovered = imgui.is_window_hovered() and imgui.is_mouse_hovering_rect((start.x, start.y), corner)
     canvas = imgui.get_window_draw_list()
-    canvas.add_rect_filled(
-        (start.x, start.y), corner, theme.packed(theme.HOVER if hovered else theme.RAISED), ui.px(4)
-    )
+    canvas.add_rect_filled((start.x, start.y), corner, theme.packed(theme.HOVER if hovered else theme.RAISED), ui.px(4))
     filled = start.x + width * min(max(fraction, 0.0), 1.0)
     if filled > start.x + 1:
         canvas.push_clip_rect((start.x, start.y), (filled, start.y + height), True)

@@ -34,11 +34,10 @@ class Playback:
         ``fixed``: the length of a frame while a film is recorded, which goes on evenly however long a frame takes.
         """
         steps, self._steps = self._steps, 0
-        if self.playing:
-            seconds = fixed if fixed is not None else min(wall, LONGEST_FRAME) * self.speed
-        else:
-            seconds = steps * STEP
-        if self.playing and wall > 0:
+        if not self.playing:
+            return steps * STEP
+        seconds = fixed if fixed is not None else min(wall, LONGEST_FRAME) * self.speed
+        if wall > 0:
             weight = min(wall / SMOOTHING, 1.0)
             self.pace += weight * (seconds / wall - self.pace)
         return seconds

@@ -24,25 +24,24 @@ COLUMNS = 2
 
 
 class Sidebar:
-    """Draws the left side. ``tools`` are those of the open editor."""
+    """Draws the left side."""
 
-    def __init__(self, rows: ParameterRows, viewport: Viewport, tools: list[Tool]) -> None:
+    def __init__(self, rows: ParameterRows, viewport: Viewport) -> None:
         self.rows = rows
         self.viewport = viewport
-        self.tools = tools
 
-    def draw(self, ui: Ui) -> None:
-        """All of it, in the current ImGui window."""
-        self._draw_tools(ui)
+    def draw(self, ui: Ui, tools: list[Tool]) -> None:
+        """All of it, in the current ImGui window. ``tools`` are those of the open editor."""
+        self._draw_tools(ui, tools)
         self._draw_motion(ui)
         self._draw_wind(ui)
         self._draw_shown(ui)
 
-    def _draw_tools(self, ui: Ui) -> None:
+    def _draw_tools(self, ui: Ui, tools: list[Tool]) -> None:
         with ui.section("Tools") as shown:
             if not shown:
                 return
-            for k, tool in enumerate(self.tools):
+            for k, tool in enumerate(tools):
                 _next_cell(k)
                 if ui.button(
                     tool.label, tool.help, icon=tool.icon, on=tool is self.viewport.tool, width=_cell_width(k)
@@ -73,7 +72,9 @@ class Sidebar:
                 return
             declared: Parameter = defaults()["wind.speed"][0]
             imgui.begin_group()
-            if ui.button("On" if wind.on else "Off", declared.doc, icon=icons.ICON_FA_WIND, on=wind.on, width=ui.px(76)):
+            if ui.button(
+                "On" if wind.on else "Off", declared.doc, icon=icons.ICON_FA_WIND, on=wind.on, width=ui.px(76)
+            ):
                 self.rows.set("wind.on", not wind.on)
             imgui.end_group()
             imgui.same_line(imgui.get_content_region_avail().x - ui.px(2 * compass.RADIUS))

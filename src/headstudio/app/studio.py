@@ -75,7 +75,8 @@ class Studio:
 
     def new(self) -> None:
         """Start an empty project."""
-        self.work.start_over()
+        for warning in self.work.start_over():
+            self.messages.say(warning, "warning")
 
     def open(self, path: Path) -> bool:
         """Open a project; False, with a message, when it cannot be opened."""

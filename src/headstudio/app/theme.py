@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from imgui_bundle import ImVec4, imgui, implot
+from imgui_bundle import ImVec2, ImVec4, imgui, implot
 
 Colour = tuple[float, float, float]
 
@@ -87,11 +87,11 @@ def _bundled_fonts() -> Path:
 def _shapes(scale: float) -> None:
     style = imgui.get_style()
     style.font_size_base = BODY_SIZE
-    style.window_padding = (12, 10)
-    style.frame_padding = (8, 4)
-    style.item_spacing = (8, 6)
-    style.item_inner_spacing = (6, 4)
-    style.cell_padding = (4, 3)
+    style.window_padding = ImVec2(12, 10)
+    style.frame_padding = ImVec2(8, 4)
+    style.item_spacing = ImVec2(8, 6)
+    style.item_inner_spacing = ImVec2(6, 4)
+    style.cell_padding = ImVec2(4, 3)
     style.indent_spacing = 14
     style.scrollbar_size = 10
     style.grab_min_size = 10
@@ -109,7 +109,7 @@ def _shapes(scale: float) -> None:
     style.tab_bar_border_size = 0
     style.tab_bar_overline_size = 2
     style.separator_text_border_size = 1
-    style.separator_text_padding = (0, 6)
+    style.separator_text_padding = ImVec2(0, 6)
     style.scale_all_sizes(scale)
     style.font_scale_dpi = scale
 
@@ -167,10 +167,10 @@ def _colours() -> None:
 
 def _plots() -> None:
     style = implot.get_style()
-    style.plot_padding = (6, 6)
-    style.label_padding = (4, 3)
-    style.legend_padding = (4, 4)
-    style.legend_inner_padding = (4, 2)
+    style.plot_padding = ImVec2(6, 6)
+    style.label_padding = ImVec2(4, 3)
+    style.legend_padding = ImVec2(4, 4)
+    style.legend_inner_padding = ImVec2(4, 2)
     style.plot_border_size = 0
     style.minor_alpha = 0.0
     col = implot.Col_

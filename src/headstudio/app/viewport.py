@@ -8,12 +8,14 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 from imgui_bundle import imgui
+from numpy.typing import NDArray
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from ..render.renderer import Renderer
 from ..scene.settings import Camera, Look
 from ..scene.stage import Stage
+from ..scene.views import seen_from
 from . import navigation
 from .picking import View
 from .studio import Studio
@@ -45,6 +47,7 @@ class Viewport:
         self.tool = tool
         self.adaptive = True
         self.rect = Rect(0, 0, 1, 1)
+        self._pixels_per_unit = 1.0
         self._resolution = 0
         self._drawn: _Drawn | None = None
         self._held: str | None = None
@@ -58,11 +61,12 @@ class Viewport:
         imgui.invisible_button("##view", size, buttons)
         ui.note("Viewport")
         self._take_mouse(imgui.is_item_hovered(), imgui.is_item_active())
+        self._pixels_per_unit = pixels_per_unit
         self._render(pixels_per_unit)
         drawing = imgui.get_window_draw_list()
         far = (corner.x + size[0], corner.y + size[1])
         if self._drawn is not None:
-            texture = imgui.ImTextureRef(self.renderer.colour_texture.glo)
+            texture = imgui.ImTextureRef(self.renderer.colour_texture)
             # OpenGL counts rows from below.
             drawing.add_image(texture, (corner.x, corner.y), far, (0, 1), (1, 0))
         drawing.push_clip_rect((corner.x, corner.y), far, True)
@@ -89,7 +93,12 @@ class Viewport:
 
     def look_from(self, name: str) -> None:
         """Look from one of the named sides."""
-        self.studio.work.look(navigation.seen_from(self.studio.document.camera, name), name)
+        self.studio.work.look(seen_from(self.studio.document.camera, name), name.capitalize())
+
+    def picture(self) -> NDArray[np.uint8]:
+        """What is on show, at the full resolution of the view, shape (height, width, 3), first row on top."""
+        self._render(self._pixels_per_unit, coarser=False)
+        return self.renderer.read_pixels()
 
     def _frame_points(self, *, everything: bool) -> None:
         stage = self.studio.stage
@@ -104,12 +113,12 @@ class Viewport:
         )
         self.studio.work.look(camera, "Frame all" if everything else "Frame head")
 
-    def _render(self, pixels_per_unit: float) -> None:
+    def _render(self, pixels_per_unit: float, *, coarser: bool = True) -> None:
         """Draw the scene, unless nothing in it has changed."""
         stage, document = self.studio.stage, self.studio.document
         if stage is None:
             return
-        moving = self.adaptive and (self.studio.playback.playing or self._held is not None)
+        moving = coarser and self.adaptive and (self.studio.playback.playing or self._held is not None)
         part = RESOLUTIONS[self._resolution] if moving else 1.0
         density = pixels_per_unit * part
         size = (max(int(self.rect.width * density), 16), max(int(self.rect.height * density), 16))
@@ -171,5 +180,3 @@ class Viewport:
         stage = self.studio.stage
         x, y = io.mouse_pos.x - self.rect.x, io.mouse_pos.y - self.rect.y
         return Pointer(x, y, self.view, stage.head if stage else None, self.frame, io.key_ctrl)
-
-

@@ -7,7 +7,7 @@ size and input, EGL gives it OpenGL.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import moderngl
@@ -37,7 +37,8 @@ class Window:
         glfw.make_context_current(self._handle)
         glfw.swap_interval(0 if headless else 1)
         glfw.set_window_size_limits(self._handle, 800, 560, glfw.DONT_CARE, glfw.DONT_CARE)
-        glfw.set_drop_callback(self._handle, lambda _, paths: self.on_drop([Path(path) for path in paths]))
+        # GLFW's Python layer gives a list of paths, whatever its type says.
+        glfw.set_drop_callback(self._handle, self._take_dropped)  # type: ignore[arg-type]
         try:
             self.gl = moderngl.create_context(require=330)
         except Exception as error:  # moderngl raises plain Exceptions, with the reason in the text
@@ -126,6 +127,9 @@ class Window:
         imgui.destroy_context(self._imgui)
         self.gl.release()
         self._destroy()
+
+    def _take_dropped(self, _: object, paths: Sequence[str]) -> None:
+        self.on_drop([Path(path) for path in paths])
 
     def _destroy(self) -> None:
         glfw.destroy_window(self._handle)

@@ -10,7 +10,7 @@ from typing import Any
 from ..params import assign
 from ..scene.document import Document
 from ..scene.history import History
-from ..scene.project import SUFFIX, load_project, save_project
+from ..scene.project import SUFFIX, load_project, new_project, save_project
 from ..scene.recent import remember_project
 from ..scene.settings import Camera
 
@@ -24,8 +24,8 @@ class Work:
     never takes back a view and a glance from the side never costs a redo.
     """
 
-    def __init__(self, document: Document | None = None) -> None:
-        document = document or Document()
+    def __init__(self) -> None:
+        document = Document()
         self.history: History[Document] = History(document)
         self.views: History[Camera] = History(document.camera)
         self.path: Path | None = None
@@ -74,9 +74,11 @@ class Work:
         """Whether the user is in the middle of a drag or of typing."""
         return self.history.in_gesture or self.views.in_gesture
 
-    def start_over(self) -> None:
-        """A new, empty project."""
-        self._reopen(Document(), None)
+    def start_over(self) -> tuple[str, ...]:
+        """A new, empty project; returns warnings."""
+        project = new_project()
+        self._reopen(project.document, None)
+        return project.warnings
 
     def open(self, path: Path) -> tuple[str, ...]:
         """Open a project; returns warnings. Raises ProjectError or OSError, and then nothing has changed."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from imgui_bundle import ImVec2Like
 from imgui_bundle import icons_fontawesome_6 as icons
 
-from ...head.head import Head
 from ...head.hairline import default_curves
+from ...head.head import Head
 from ...head.mesh import Floats
 from ...head.scalp_curves import catmull_rom
 from .. import theme
@@ -38,9 +39,7 @@ class ShapeScalp(Tool):
         if curves is None:
             return False
         handles = np.concatenate([np.array(curve) for curve in curves])
-        gaps = np.linalg.norm(
-            pointer.view.project(pointer.frame.to_world(handles)) - [pointer.x, pointer.y], axis=1
-        )
+        gaps = np.linalg.norm(pointer.view.project(pointer.frame.to_world(handles)) - [pointer.x, pointer.y], axis=1)
         gaps[~self._facing(handles, pointer)] = np.inf
         nearest = int(np.nanargmin(gaps))
         if not gaps[nearest] < GRAB_RADIUS:
@@ -67,7 +66,9 @@ class ShapeScalp(Tool):
     def options(self, ui: Ui) -> None:
         """Back to the curves placed from landmarks."""
         document = self.studio.document
-        if ui.button("Default curves", "Place the curves from the landmarks of the head.", enabled=bool(document.scalp.curves)):
+        if ui.button(
+            "Default curves", "Place the curves from the landmarks of the head.", enabled=bool(document.scalp.curves)
+        ):
             self.studio.work.change(replace(document, scalp=replace(document.scalp, curves=())), "Default curves")
 
     def draw(self, canvas: Canvas) -> None:
@@ -93,12 +94,12 @@ class ShapeScalp(Tool):
         return self._placed[1]
 
     def _draw_line(self, canvas: Canvas, line: Floats) -> None:
-        shown = [(float(x), float(y)) for x, y in self._on_screen(canvas, line)]
+        shown: list[ImVec2Like] = [(float(x), float(y)) for x, y in self._on_screen(canvas, line)]
         for colour, width in ((theme.packed(theme.GROUND, 0.6), 4.0), (theme.packed(theme.ACCENT), 2.0)):
             canvas.drawing.add_polyline(shown, colour, width * canvas.scale, 0)
 
     def _on_screen(self, canvas: Canvas, points: Floats) -> Floats:
-        shown = canvas.view.project(canvas.frame.to_world(points)) + [canvas.x, canvas.y]
+        shown = canvas.view.project(canvas.frame.to_world(points)) + np.array([canvas.x, canvas.y])
         return shown[np.isfinite(shown).all(axis=1)]
 
     def _facing(self, points: Floats, pointer: Pointer) -> np.ndarray:

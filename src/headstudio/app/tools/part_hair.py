@@ -1,0 +1,40 @@
+"""Hold the hair apart, and let it go: Bando et al. 2006, figure 6."""
+
+from __future__ import annotations
+
+from imgui_bundle import icons_fontawesome_6 as icons
+
+from ..ui import Ui
+from .tool import Pointer, Tool
+
+
+class PartHair(Tool):
+    """While the button is down two hands hold the hair apart; let go and it falls together again."""
+
+    label = "Part"
+    icon = icons.ICON_FA_ARROWS_LEFT_RIGHT_TO_LINE
+    help = "Press on the head: the hair is held apart as long as you hold the button. Let go and it falls together."
+
+    def press(self, pointer: Pointer) -> bool:
+        """Take the hair apart."""
+        if pointer.hit is None or self.studio.grown is None:
+            return False
+        self._hold()
+        return True
+
+    def release(self) -> None:
+        """Let go."""
+        if self.studio.grown is not None:
+            self.studio.grown.simulation.release()
+
+    def options(self, ui: Ui) -> None:
+        """Hold without keeping the button down."""
+        if ui.button("Hold apart"):
+            self._hold()
+        if ui.button("Let go"):
+            self.release()
+
+    def _hold(self) -> None:
+        if self.studio.grown is not None:
+            self.studio.grown.simulation.hold_apart()
+            self.studio.playback.playing = True
