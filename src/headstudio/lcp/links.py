@@ -14,6 +14,9 @@ from .neighbours import find_pairs
 SMALLEST_ALIGNMENT = 0.5  # a_0 of the paper
 WANTED_LINKS = 12  # N_n of the paper
 _KEPT_ROOTWARD = 3
+# Shortest rest length as a part of the distance along the hair, and weakest link as a part of a particle's strongest.
+_CLOSEST = 0.5
+_FAINTEST = 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +44,8 @@ def connect(
     (n, 3); arc_length: s [m], below 0 for root particles, (n,); smoothing_length: h_1 [m].
 
     Particles are linked because they share strands. A pair that meets in space but grows from roots farther apart than
-    ``same_strands`` [m], or whose arc lengths run against their order in space, shares none and is left out, as are pairs
-    of root particles. Every other particle gets a link toward the root, if need be one that a_0 would forbid: hair grows
+    ``same_strands`` [m], that lies much closer in space than along the hair (eq. 3), or whose arc lengths run against its
+    order in space, shares none and is left out, as are pairs of root particles. Every other particle gets a link toward the root, if need be one that a_0 would forbid: hair grows
     out of the head and nowhere else.
     """
     pairs = find_pairs(positions, 2.0 * smoothing_length)
@@ -50,7 +53,13 @@ def connect(
     apart = np.linalg.norm(roots[pairs[:, 0]] - roots[pairs[:, 1]], axis=1)
     pairs = pairs[(apart < same_strands) & ~(fixed[pairs[:, 0]] & fixed[pairs[:, 1]])]
     links = _measure(positions, directions, pairs)
-    fit = (links.alignment >= SMALLEST_ALIGNMENT) & (arc_length[links.pairs[:, 0]] < arc_length[links.pairs[:, 1]])
+    offset = np.column_stack([roots, arc_length])[links.pairs]
+    along_hair = np.linalg.norm(offset[:, 1] - offset[:, 0], axis=1)
+    fit = (
+        (links.alignment >= SMALLEST_ALIGNMENT)
+        & (offset[:, 0, 3] < offset[:, 1, 3])
+        & (links.rest_length > _CLOSEST * along_hair)
+    )
     links = _prune(_select(links, fit), len(positions), smoothing_length)
     carried = np.zeros(len(positions), dtype=bool)
     carried[links.pairs[:, 1]] = True
@@ -130,14 +139,18 @@ def _select(links: Links, which: np.ndarray) -> Links:
 
 
 def _prune(links: Links, count: int, smoothing_length: float) -> Links:
-    """Drop weak links, in rounds, until no particle has many more than ``WANTED_LINKS``.
+    """Drop links that count for nothing, then weak ones, until no particle has many more than ``WANTED_LINKS``.
 
-    In a round every particle with too many gives up its weakest link (the smallest c_ij W(l_ij, h_1)). The strongest
+    This goes in rounds: in a round every particle with too many gives up its weakest link (the smallest c_ij W(l_ij, h_1)). The strongest
     rootward links of a particle are never given up: particles on the border of the hair have few, and come off first.
     """
     weight = links.strength * kernel(links.rest_length, smoothing_length)
     order = np.argsort(-weight, kind="stable")
     links, weight = _select(links, order), weight[order]
+    strongest = np.zeros(count)
+    np.maximum.at(strongest, links.pairs.ravel(), np.repeat(weight, 2))
+    notable = weight > _FAINTEST * strongest[links.pairs].max(axis=1)
+    links, weight = _select(links, notable), weight[notable]
     kept_rootward = _rank_in_group(links.pairs[:, 1]) < _KEPT_ROOTWARD
     alive = np.ones(len(weight), dtype=bool)
     while True:
