@@ -27,9 +27,18 @@ SetOption = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NAME=VALUE", help="Set a parameter; headstudio params lists them. May be repeated."),
 ]
+MotionOption = Annotated[
+    str | None,
+    typer.Option(
+        "--motion", help="rest, shake, nod, turn, tilt, split, wind, or a table FILE.csv of a recorded motion."
+    ),
+]
+SizeOption = Annotated[str, typer.Option("--size", help="Pixels: 512 or 640x480.")]
+ViewOption = Annotated[str | None, typer.Option("--view", help="front, three-quarter, side, left, right, back or top.")]
 SeedOption = Annotated[int | None, typer.Option("--seed", help="Start of the random numbers.")]
 ParticlesOption = Annotated[int | None, typer.Option("--particles", help="How many particles carry the hair.")]
 
+DIFFERENT = 1
 CANCELLED = 130
 FAILED = 2
 
@@ -56,6 +65,86 @@ def command(function: Callable[..., None]) -> Callable[..., None]:
 
     app.command()(run)
     return run
+
+
+@command
+def demo(
+    out: Annotated[Path, typer.Option(help="The folder to fill.")] = Path("headstudio-demo"),
+    quick: Annotated[bool, typer.Option("--quick", help="Small and short: a few seconds of work.")] = False,
+    head: HeadOption = None,
+    seed: SeedOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Make films, contact sheets and figures of what the program can do."""
+    from .commands.demo import demo
+    from .commands.documents import head_source, open_document
+
+    demo(open_document(None, set_ or (), head_source=head_source(head), hair_seed=seed), out, quick)
+
+
+@command
+def simulate(
+    project: Project = None,
+    motion: MotionOption = None,
+    seconds: Annotated[float, typer.Option(min=0.01, max=600, help="How long [s].")] = 4.0,
+    fps: Annotated[float, typer.Option(min=1, max=240, help="Frames a second.")] = 30.0,
+    particles: ParticlesOption = None,
+    out: Annotated[Path | None, typer.Option(help="A film (.mp4, .mov, .mkv), or a folder for pictures.")] = None,
+    stats: Annotated[Path | None, typer.Option(help="A JSON file for the figures of every frame.")] = None,
+    size: SizeOption = "512",
+    view: ViewOption = None,
+    head: HeadOption = None,
+    seed: SeedOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Set hair in motion; write a film, figures, or both."""
+    from .commands.documents import choose_motion, choose_view, head_source, open_document
+    from .commands.pictures import parse_size
+    from .commands.simulate import Shot, simulate
+
+    document = open_document(
+        project, set_ or (), head_source=head_source(head), hair_particles=particles, hair_seed=seed
+    )
+    document, movement = choose_motion(document, motion)
+    simulate(choose_view(document, view), movement, Shot(seconds, fps, parse_size(size), out, stats))
+
+
+@command
+def render(
+    project: Project = None,
+    out: Annotated[Path, typer.Option(help="The picture, a PNG.")] = Path("picture.png"),
+    size: SizeOption = "512",
+    view: ViewOption = None,
+    motion: MotionOption = None,
+    seconds: Annotated[float, typer.Option(min=0, max=600, help="How long after the start of the motion [s].")] = 0.0,
+    particles: ParticlesOption = None,
+    head: HeadOption = None,
+    seed: SeedOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Draw one picture."""
+    from .commands.documents import choose_motion, choose_view, head_source, open_document
+    from .commands.pictures import parse_size, render
+
+    document = open_document(
+        project, set_ or (), head_source=head_source(head), hair_particles=particles, hair_seed=seed
+    )
+    document, movement = choose_motion(document, motion)
+    render(choose_view(document, view), movement, seconds, parse_size(size), out)
+    typer.echo(out)
+
+
+@command
+def compare(
+    one: Annotated[Path, typer.Argument(metavar="A.png")],
+    other: Annotated[Path, typer.Argument(metavar="B.png")],
+    difference: Annotated[Path | None, typer.Option(help="Write both and their magnified difference here.")] = None,
+) -> None:
+    """Tell whether two pictures are the same but for rounding. Status 0 if they are, 1 if not."""
+    from .commands.compare import compare
+
+    if not compare(one, other, difference):
+        raise typer.Exit(DIFFERENT)
 
 
 @command

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from ..scene.builder import Builder, Built
 from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
 from ..scene.project import Project, load_project, new_project
+from ..scene.views import seen_from
 from .reporting import asides, warn
 
 
@@ -47,6 +49,11 @@ def choose_motion(document: Document, word: str | None) -> tuple[Document, Motio
     if word is not None:
         document = assign(document, {"motion.kind": word})
     return document, head_motion(document.motion)
+
+
+def choose_view(document: Document, view: str | None) -> Document:
+    """The document seen from a view by name; None leaves its camera. Raises ParameterError."""
+    return document if view is None else replace(document, camera=seen_from(document.camera, view))
 
 
 def build(document: Document) -> Built:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import Any
 
 from rich.markup import escape
@@ -31,6 +31,7 @@ class Row:
     name: str
     default: str
     range: str
+    unit: str
     live: str
     help: str
 
@@ -48,11 +49,11 @@ def print_parameters(part_of_name: str = "") -> None:
     rows = parameter_rows(part_of_name)
     if not results.is_terminal:
         for row in rows:
-            results.out(row.name, row.default, row.range, row.live, row.help, sep="\t")
+            results.out(*astuple(row), sep="\t")
         return
-    table = Table("Parameter", "Default", "Range", "", "What it is", header_style="bold", padding=(0, 1))
+    table = Table("Parameter", "Default", "Range", "Unit", "", "What it is", header_style="bold")
     for row in rows:
-        table.add_row(*(escape(cell) for cell in (row.name, row.default, row.range, row.live, row.help)))
+        table.add_row(*(escape(cell) for cell in astuple(row)))
     results.print(table, soft_wrap=False)
 
 
@@ -69,13 +70,14 @@ def _by_part() -> Iterator[tuple[str, list[Row]]]:
 
 
 def _section(part: str, rows: list[Row]) -> str:
-    lines = [f"\n## {part}\n", "| Parameter | Default | Range | | What it is |", "|---|---|---|---|---|"]
-    lines += [f"| `{row.name}` | {row.default} | {row.range} | {row.live} | {row.help} |" for row in rows]
+    lines = [f"\n## {part}\n", "| Parameter | Default | Range | Unit | | What it is |", "|---|---|---|---|---|---|"]
+    lines += [f"| `{row.name}` | {' | '.join(astuple(row)[1:])} |" for row in rows]
     return "\n".join(lines) + "\n"
 
 
 def _row(name: str, parameter: Parameter, value: Any) -> Row:
-    return Row(name, _value(parameter, value), _range(parameter), "live" if parameter.live else "", parameter.doc)
+    live = "live" if parameter.live else ""
+    return Row(name, _value(parameter, value), _range(parameter), parameter.unit, live, parameter.doc)
 
 
 def _value(parameter: Parameter, value: Any) -> str:
@@ -85,7 +87,7 @@ def _value(parameter: Parameter, value: Any) -> str:
         case "colour":
             return "#" + "".join(f"{round(255 * part):02x}" for part in value)
         case "number":
-            return _with_unit(parameter, _number(value), value)
+            return _number(parameter, value)
         case _:
             return str(value)
 
@@ -93,7 +95,7 @@ def _value(parameter: Parameter, value: Any) -> str:
 def _range(parameter: Parameter) -> str:
     match parameter.kind:
         case "number" | "integer":
-            return f"{_number(parameter.low)} to {_number(parameter.high)}"
+            return f"{_number(parameter, parameter.low)} to {_number(parameter, parameter.high)}"
         case "switch":
             return "on, off"
         case "choice":
@@ -104,11 +106,11 @@ def _range(parameter: Parameter) -> str:
             return "text"
 
 
-def _number(value: float | None) -> str:
-    return f"{value:.4g}".replace("e+0", "e").replace("e+", "e") if value is not None else "any"
-
-
-def _with_unit(parameter: Parameter, text: str, value: float) -> str:
-    if parameter.unit == "rad":
-        return f"{text} rad ({math.degrees(value):.4g} deg)"
-    return f"{text} {parameter.unit}".rstrip()
+def _number(parameter: Parameter, value: float | None) -> str:
+    if value is None:
+        return "any"
+    if parameter.kind == "integer":
+        return str(value)
+    if parameter.shown == "deg":
+        return f"{value:.4g} ({math.degrees(value):.4g}°)"
+    return f"{value:.4g}".replace("e+0", "e")

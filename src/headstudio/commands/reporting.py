@@ -45,12 +45,15 @@ def counting(what: str, total: int) -> Iterator[Progress]:
 def foreseen(error: BaseException) -> bool:
     """Whether an error is one whose message is a line for the user, rather than a fault of the program."""
     from ..head.head import HeadError
+    from ..io.compare import PictureError
+    from ..io.film import FilmError
     from ..params import ParameterError
     from ..render.context import RenderError
     from ..scene.project import ProjectError
     from ..scene.take import TakeError
 
-    return isinstance(error, OSError | HeadError | ParameterError | ProjectError | RenderError | TakeError)
+    own = HeadError | ParameterError | ProjectError | TakeError | PictureError | FilmError | RenderError
+    return isinstance(error, OSError | own)
 
 
 def as_line(error: BaseException) -> str:

@@ -1,0 +1,130 @@
+"""``headstudio simulate``: a document in motion, as a film, as numbers, or both."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..io.film import Film, open_film
+from ..scene.builder import Built
+from ..scene.document import Document
+from ..scene.files import write_atomically
+from ..scene.motion import Motion
+from ..scene.simulation import Simulation
+from ..scene.stage import Stage
+from .documents import build
+from .pictures import Photographer, Size
+from .reporting import counting, results, warn
+from .versions import versions
+
+Figures = dict[str, float | None]
+
+
+@dataclass(frozen=True)
+class Shot:
+    """What to film: how long [s], how many frames a second, how large, and where film and figures go (None: nowhere)."""
+
+    seconds: float
+    fps: float
+    size: Size
+    film: Path | None
+    stats: Path | None
+
+    @property
+    def frames(self) -> int:
+        """How many frames that makes, one at least."""
+        return max(1, round(self.seconds * self.fps))
+
+
+@dataclass
+class Run:
+    """A document in motion, frame by frame, with the figures of every frame."""
+
+    document: Document
+    motion: Motion
+    built: Built
+    photographer: Photographer | None = None
+    frames: list[Figures] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.simulation = Simulation(self.built, self.document)
+
+    def play(self, count: int, fps: float) -> Iterator[Stage]:
+        """Go on by ``count`` frames of 1/fps [s]; yields each when its figures are taken. Tells what was repaired."""
+        for _ in range(count):
+            start = time.perf_counter()
+            self.simulation.advance(self.motion, 1 / fps)
+            elapsed = time.perf_counter() - start
+            for note in self.simulation.notes:
+                warn(note)
+            self.frames.append(self._figures(elapsed))
+            yield self.simulation.stage()
+
+    def _figures(self, elapsed: float) -> Figures:
+        measured = self.simulation.measure()
+        stages = {f"ms_{stage}": 1000 * seconds for stage, seconds in self.simulation.timings.items()}
+        figures = {"time": self.simulation.time, **measured, **stages, "ms_simulation": 1000 * elapsed}
+        # JSON knows no infinity: a figure that has no value (the distance of pairs, where there are none) is null.
+        return {name: float(value) if math.isfinite(value) else None for name, value in figures.items()}
+
+    def report(self) -> dict[str, Any]:
+        """The content of the stats file, SI throughout."""
+        return {
+            "versions": versions(),
+            "renderer": self.photographer.device if self.photographer else None,
+            "seed": self.document.hair.seed,
+            "particles": self.built.hair.count,
+            "links": len(self.built.hair.links),
+            "solver": self.simulation.solver_name,
+            "frames": self.frames,
+        }
+
+
+def simulate(document: Document, motion: Motion, shot: Shot) -> None:
+    """Film a document in motion and write its figures. Raises what building, drawing and writing raise."""
+    photographer = Photographer(shot.size) if shot.film else None
+    run = Run(document, motion, build(document), photographer)
+    with ExitStack() as stack:
+        film: Film | None = stack.enter_context(open_film(shot.film, shot.fps, shot.size)) if shot.film else None
+        progress = stack.enter_context(counting("simulating", shot.frames))
+        for stage in run.play(shot.frames, shot.fps):
+            if film is not None and photographer is not None:
+                film.add(photographer.picture(stage, document))
+            progress.advance(progress.task_ids[0])
+    if shot.stats is not None:
+        write_report(run.report(), shot.stats)
+    for line in summary(run, shot):
+        results.out(line)
+
+
+def write_report(report: dict[str, Any], path: Path) -> None:
+    """Write a report as JSON; makes the folder. Raises OSError."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_atomically(path, json.dumps(report, indent=1, allow_nan=False).encode() + b"\n")
+
+
+def summary(run: Run, shot: Shot) -> list[str]:
+    """What happened, in lines for a person."""
+    simulated = run.frames[-1]["time"] or 0.0
+    cost = sum(frame["ms_simulation"] or 0.0 for frame in run.frames) / 1000
+    lines = [
+        f"{run.built.hair.count} particles, {len(run.built.hair.links)} links, "
+        f"{len(run.frames)} frames, {simulated:.2f} s in {cost:.2f} s ({simulated / cost:.2f} times real time)",
+        f"largest reach {_largest(run, 'reach_max'):.3f}, largest rms stretch {100 * _largest(run, 'stretch_rms'):.2f} %, "
+        f"deepest penetration {1000 * _largest(run, 'penetration_max'):.1f} mm",
+    ]
+    if shot.film is not None:
+        lines.append(f"film: {shot.film}")
+    if shot.stats is not None:
+        lines.append(f"figures: {shot.stats}")
+    return lines
+
+
+def _largest(run: Run, name: str) -> float:
+    return max((frame.get(name) or 0.0 for frame in run.frames), default=0.0)
