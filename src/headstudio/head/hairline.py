@@ -1,67 +1,120 @@
-"""Where a person's hair begins: default curves around the scalp, from landmarks alone."""
+"""Where a person's hair begins: default curves around the scalp, from landmarks and the outline of the ears.
+
+Points are given on a cylinder about the vertical through the middle between the ears: an azimuth, 0 in front and 90
+degrees at the tragus, and a height, 0 at the tragus. Each is then found on the skin, looking at the head from outside.
+"""
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import dataclass
 
-from .head import Head
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .head import Head, HeadError
 from .locate import Locator
 from .mesh import Floats
 
-# Control points on the left half of a typical hairline, from the middle outward. Each is (lateral, up, forward) where
-# lateral 1 is the tragus, up runs from the tragi (0) to the crown (1), and forward from the tragi (0) to the glabella
-# (1). The forehead's middle comes from its landmark.
-_FOREHEAD = (
-    (0.30, 0.79, 0.80),
-    (0.60, 0.74, 0.66),
-    (0.72, 0.60, 0.58),
-    (0.80, 0.43, 0.56),
-    (0.87, 0.28, 0.42),
-    (0.95, 0.13, 0.24),
-)
-_SIDEBURN_TIP = (0.98, 0.02, 0.15)
-_AROUND_THE_EAR = (
-    (0.97, 0.14, 0.13),
-    (0.95, 0.25, 0.08),
-    (0.95, 0.31, -0.08),
-    (0.95, 0.26, -0.22),
-    (0.93, 0.08, -0.28),
-    (0.87, -0.14, -0.27),
-)
-_NAPE_CORNER = (0.72, -0.33, -0.36)
+# From the middle of the forehead to the sideburn: azimuth [deg], height as a part of the hairline's in the middle. The
+# line recedes over the temple, comes forward level with the brow, and falls back to the ear.
+_FOREHEAD = ((14, 1.02), (29, 1.01), (40, 0.91), (47, 0.72), (53, 0.52), (63, 0.32), (73, 0.14))
+_SIDEBURN_TIP = (81, -0.04)
+# Heights below are parts of the height from tragus to crown; an adult's is about 130 mm, which the angles go with.
+_TYPICAL_EAR = (0.24, 113.0)
+_CLEARANCE, _CLEARANCE_DEGREES = 0.05, 3.0
+_NAPE_CORNER_AZIMUTH = 127.0
+# What stands out from its surroundings by this much, seen from outside, belongs to the ear.
+_EAR_STEP = 0.035
 
 
 def default_curves(head: Head) -> tuple[Floats, ...]:
     """Control points [m] of a natural hairline on any head: front, left, back and right curve, each (k, 3).
 
     The front curve runs from the tip of the right sideburn over temples and forehead to the left one, the side curves
-    over and behind the ears, and the back curve along the nape, so that the square's corners are the four tips.
+    over and behind the ears, and the back curve along the nape, so that the square's corners are the four tips. Raises
+    HeadError when the landmarks do not lie as on a head.
     """
+    around = _Surroundings.of(head)
     marks = head.landmarks
-    middle = (marks.left_tragus + marks.right_tragus) / 2
-    half_breadth = abs(marks.left_tragus[0] - marks.right_tragus[0]) / 2
-    scale = np.array([half_breadth, marks.crown[1] - middle[1], marks.glabella[2] - middle[2]])
-
-    def placed(points: tuple[tuple[float, float, float], ...], side: int) -> Floats:
-        return middle + np.array(points) * scale * np.array([side, 1, 1])
-
-    skin = Locator(head.skin.vertices, head.skin.faces)
-
-    def halves(side: int) -> tuple[Floats, Floats, Floats, Floats]:
-        return tuple(  # type: ignore[return-value]
-            _on_skin(head, placed(points, side), skin)
-            for points in (_FOREHEAD, (_SIDEBURN_TIP,), _AROUND_THE_EAR, (_NAPE_CORNER,))
-        )
-
-    left_front, left_tip, left_ear, left_nape = halves(1)
-    right_front, right_tip, right_ear, right_nape = halves(-1)
-    front = np.concatenate([right_tip, right_front[::-1], marks.hairline[None], left_front, left_tip])
-    left = np.concatenate([left_tip, left_ear, left_nape])
-    back = np.concatenate([left_nape, marks.nape[None], right_nape])
-    right = np.concatenate([right_nape, right_ear[::-1], right_tip])
-    return front, left, back, right
+    left_front, left_side = _half(around, marks.hairline, marks.nape, 1)
+    right_front, right_side = _half(around, marks.hairline, marks.nape, -1)
+    front = np.concatenate([right_side[:1], right_front[::-1], marks.hairline[None], left_front, left_side[:1]])
+    back = np.stack([left_side[-1], marks.nape, right_side[-1]])
+    return front, left_side, back, right_side[::-1]
 
 
-def _on_skin(head: Head, points: Floats, skin: Locator) -> Floats:
-    found, _ = skin.nearest(points)
-    return found.blend(head.skin.vertices, head.skin.faces)
+@dataclass(frozen=True)
+class _Surroundings:
+    """The head as seen from a cylinder around it: its axis through ``middle``, its ``radius``, all in metres.
+
+    unit: height from tragus to crown.
+    """
+
+    skin: Locator
+    middle: Floats
+    radius: float
+    unit: float
+
+    @classmethod
+    def of(cls, head: Head) -> _Surroundings:
+        marks = head.landmarks
+        middle = (marks.left_tragus + marks.right_tragus) / 2
+        unit = float(marks.crown[1] - middle[1])
+        if not (unit > 0 and marks.hairline[1] > middle[1] > marks.nape[1]):
+            raise HeadError("the landmarks do not lie as on a head: crown and hairline above the ears, the nape below")
+        reach = max(np.linalg.norm((mark - middle)[[0, 2]]) for mark in (marks.nose_tip, marks.occiput))
+        return cls(Locator(head.skin.vertices, head.skin.faces), middle, 1.3 * float(reach), unit)
+
+    def place(self, azimuth: ArrayLike, height: ArrayLike) -> Floats:
+        """The skin [m], (k, 3), at azimuths [deg], positive to the person's left, and heights [m] over the tragus.
+
+        Where one sees past the head, the nearest point of it.
+        """
+        outward, start = self._rays(azimuth, height)
+        distance = self.skin.first_hit(start, -outward)
+        seen = start - np.where(np.isfinite(distance), distance, self.radius)[:, None] * outward
+        nearest, _ = self.skin.nearest(seen)
+        return nearest.blend(self.skin.vertices, self.skin.faces)
+
+    def ear(self, side: int) -> tuple[float, float]:
+        """Height [m] of the top of an ear and azimuth [deg] of its back; typical ones when none stands out."""
+        azimuth, height = np.arange(70.0, 142.0, 1.5), np.arange(-0.15, 0.6, 0.02) * self.unit
+        grid_azimuth, grid_height = np.meshgrid(azimuth, height)
+        outward, start = self._rays(side * grid_azimuth.ravel(), grid_height.ravel())
+        depth = self.skin.first_hit(start, -outward).reshape(grid_azimuth.shape)
+        depth = np.minimum(depth, self.radius)
+        step = np.zeros(depth.shape, dtype=bool)
+        step[1:] |= np.abs(np.diff(depth, axis=0)) > _EAR_STEP * self.unit
+        step[:, 1:] |= np.abs(np.diff(depth, axis=1)) > _EAR_STEP * self.unit
+        if not step.any():
+            return _TYPICAL_EAR[0] * self.unit, _TYPICAL_EAR[1]
+        return float(height[step.any(axis=1)].max()), float(azimuth[step.any(axis=0)].max())
+
+    def _rays(self, azimuth: ArrayLike, height: ArrayLike) -> tuple[Floats, Floats]:
+        angle, up = np.radians(azimuth), np.asarray(height, dtype=np.float64)
+        outward = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=-1)
+        return outward, self.middle + self.radius * outward + up[..., None] * [0.0, 1.0, 0.0]
+
+
+def _half(around: _Surroundings, hairline: Floats, nape: Floats, side: int) -> tuple[Floats, Floats]:
+    """One half of the hairline: forehead and temple from the middle outward, and from the sideburn's tip to the nape."""
+    rise, fall = hairline[1] - around.middle[1], nape[1] - around.middle[1]
+    top, back = around.ear(side)
+    above, behind = top + _CLEARANCE * around.unit, back + _CLEARANCE_DEGREES
+    forehead = np.array(_FOREHEAD)
+    around_ear = np.array(
+        [
+            (_SIDEBURN_TIP[0], _SIDEBURN_TIP[1] * rise),
+            (83, 0.55 * top),
+            (86, 0.9 * above),
+            (0.5 * (88 + behind), above),
+            (behind - 3, 0.8 * top),
+            (behind, 0.25 * top),
+            (behind, 0.4 * fall),
+            (_NAPE_CORNER_AZIMUTH, 0.92 * fall),
+        ]
+    )
+    return (
+        around.place(side * forehead[:, 0], rise * forehead[:, 1]),
+        around.place(side * around_ear[:, 0], around_ear[:, 1]),
+    )

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import igl
 import numpy as np
 
 from .mesh import Floats, Ints
+
+# igl takes a ray for parallel to a triangle when a determinant, an area in the units of the mesh, is below 1e-6: in
+# metres that is every triangle of a fine head. So rays are cast in millimetres.
+_RAY_SCALE = 1000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,18 +36,33 @@ class Locator:
 
     def __init__(self, vertices: Floats, faces: Ints) -> None:
         """vertices: (n, 3) or (n, 2). faces: (m, 3)."""
-        self._vertices = _in_space(vertices)
-        self._faces = np.ascontiguousarray(faces, dtype=np.int64)
+        self.vertices = _in_space(vertices)
+        self.faces = np.ascontiguousarray(faces, dtype=np.int64)
         self._tree = igl.AABB()
-        self._tree.init(self._vertices, self._faces)
+        self._tree.init(self.vertices, self.faces)
 
     def nearest(self, points: Floats) -> tuple[SurfacePoints, Floats]:
         """The points of the mesh nearest to ``points``, (k, 3) or (k, 2), and how far they are, (k,)."""
         if len(points) == 0:
             return SurfacePoints(np.zeros(0, dtype=np.int64), np.zeros((0, 3))), np.zeros(0)
-        squared, faces, closest = self._tree.squared_distance(self._vertices, self._faces, _in_space(points))
-        weights = barycentric(closest, self._vertices[self._faces[faces]])
+        squared, faces, closest = self._tree.squared_distance(self.vertices, self.faces, _in_space(points))
+        weights = barycentric(closest, self.vertices[self.faces[faces]])
         return SurfacePoints(faces, weights), np.sqrt(squared)
+
+    def first_hit(self, starts: Floats, directions: Floats) -> Floats:
+        """How far each ray, from (k, 3) along (k, 3), runs before it meets the mesh, (k,); infinite if it does not."""
+        tree, vertices = self._tree_for_rays
+        hit, distance, _ = tree.intersect_ray_first(
+            vertices, self.faces, np.ascontiguousarray(starts * _RAY_SCALE), np.ascontiguousarray(directions)
+        )
+        return np.where(hit >= 0, distance / _RAY_SCALE, np.inf)
+
+    @cached_property
+    def _tree_for_rays(self) -> tuple[igl.AABB, Floats]:
+        vertices = self.vertices * _RAY_SCALE
+        tree = igl.AABB()
+        tree.init(vertices, self.faces)
+        return tree, vertices
 
 
 def barycentric(points: Floats, triangles: Floats) -> Floats:

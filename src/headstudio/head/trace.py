@@ -68,12 +68,16 @@ def trace_loop(mesh: SplittableMesh, stops: Sequence[int], corners: Sequence[int
     """
     loop = [stops[0]]
     before = {stops[0]: -1}
+    kept = set(corners)
     for target in [*stops[1:], stops[0]]:
+        if target in before and target != stops[0]:
+            continue
         steps_left = len(mesh.opposite)
         while loop[-1] != target and steps_left:
             steps_left -= 1
-            vertex = _step(mesh, loop, target, before)
-            if len(loop) > 1 and vertex == loop[-2] and loop[-1] not in corners:
+            may_turn_back = loop[-1] not in kept
+            vertex = _step(mesh, loop, target, before, may_turn_back)
+            if may_turn_back and vertex == loop[-2]:
                 del before[loop.pop()]
             elif vertex not in before:
                 before[vertex] = loop[-1]
@@ -90,8 +94,14 @@ def trace_loop(mesh: SplittableMesh, stops: Sequence[int], corners: Sequence[int
 _CROSSING = "the curves around the scalp cross or touch each other"
 
 
-def _step(mesh: SplittableMesh, loop: Sequence[int], target: int, before: Mapping[int, int]) -> int:
-    """The next vertex on the way to ``target``; splits the edge that the way crosses."""
+def _step(
+    mesh: SplittableMesh, loop: Sequence[int], target: int, before: Mapping[int, int], may_turn_back: bool
+) -> int:
+    """The next vertex on the way to ``target``; splits the edge that the way crosses.
+
+    ``before`` tells for every vertex of the loop which one it was reached from. Only the last of these is a possible
+    answer, if the way ``may_turn_back``: then the loop has made a detour to a knot that is as good as on it.
+    """
     vertex = loop[-1]
     if mesh.has_edge(vertex, target):
         return target
@@ -113,7 +123,7 @@ def _step(mesh: SplittableMesh, loop: Sequence[int], target: int, before: Mappin
         raise HeadError("a curve around the scalp runs over the border or a sharp crease of the surface")
     (b, c), at = rim[best], float(part[best])
     near = b if at < _SNAP_CROSSING else c if at > 1 - _SNAP_CROSSING else -1
-    if near >= 0 and (near not in before or near == loop[-2:][0] or near == target):
+    if near >= 0 and (near not in before or near == target or (may_turn_back and near == before[vertex])):
         return near
     if before.get(b) == c or before.get(c) == b:
         raise HeadError(_CROSSING)
