@@ -1,4 +1,4 @@
-"""Clipping a triangle mesh by a plane, or wherever a function of the vertices changes its sign."""
+"""Clipping a triangle mesh by a plane, a smooth surface or any function of its vertices."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from scipy import sparse
 
 from .mesh import Floats, Ints, TriangleMesh
 
-# A vertex this close to the plane, as a fraction of its shortest edge, is moved onto it: no sliver is left behind.
+# A vertex this close to the surface, as a fraction of its shortest edge, is moved onto it: no sliver is left behind.
 _SNAP = 0.12
 
 Mask = NDArray[np.bool_]
@@ -45,18 +45,25 @@ def clip(mesh: TriangleMesh, distance: Floats) -> tuple[TriangleMesh, sparse.csr
 
 
 def clip_by_plane(mesh: TriangleMesh, point: Floats, normal: Floats) -> tuple[TriangleMesh, sparse.csr_array]:
-    """The part of ``mesh`` on the side of a plane that ``normal`` (unit) points to, with an even border in the plane.
-
-    Vertices that all but touch the plane are moved onto it first. Returns the part and the matrix of ``clip``.
-    """
+    """The part of ``mesh`` on the side of a plane that ``normal`` (unit) points to. Returns what ``clip`` returns."""
     distance = (mesh.vertices - point) @ normal
+    return clip_by_surface(mesh, distance, np.broadcast_to(normal, mesh.vertices.shape))
+
+
+def clip_by_surface(mesh: TriangleMesh, distance: Floats, gradient: Floats) -> tuple[TriangleMesh, sparse.csr_array]:
+    """The part of ``mesh`` on one side of a smooth surface, with an even border on it.
+
+    distance: signed distance of every vertex from the surface, shape (n,), near the surface at least. gradient: its
+    unit gradient, shape (n, 3). Vertices that all but touch the surface are moved onto it first, so that no sliver is
+    left. Returns what ``clip`` returns.
+    """
     edges = mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
-    shortest = np.full(len(distance), np.inf)
+    shortest = np.zeros(len(distance))
+    shortest[edges] = np.inf
     np.minimum.at(shortest, edges, lengths[:, None])
     touching = np.abs(distance) < _SNAP * shortest
-    touching[np.isinf(shortest)] = False
-    snapped = mesh.vertices - np.where(touching, distance, 0.0)[:, None] * normal
+    snapped = mesh.vertices - np.where(touching, distance, 0.0)[:, None] * gradient
     return clip(mesh.moved(snapped), np.where(touching, 0.0, distance))
 
 

@@ -18,6 +18,6 @@ def load_head(source: str, *, age: float = 0.2, masculine: float = 0.0) -> Head:
         from .mannequin import mannequin
 
         return mannequin()
-    from .import_file import head_from_file
+    from .from_file import head_from_file
 
     return head_from_file(source)

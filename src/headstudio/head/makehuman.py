@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from scipy import sparse
 
-from .bust import head_weight
-from .clip import clip_by_plane
+from .bust import cut_bust, head_height, head_weight
 from .eyes import eyeball
 from .head import Expression, Head, HeadError, Landmarks, Part
 from .makehuman_data import (
@@ -40,10 +40,8 @@ _LANDMARKS = {
     "mouth_right": 3734,
 }
 
-# The bust ends on a level plane under the armpits and on planes across the upper arms, below the shoulder joints [m].
-_CHEST_BELOW_SHOULDER = 0.075
-_ARM_BELOW_SHOULDER = 0.045
-_MARGIN = 0.03
+# The part of the body that is subdivided before the bust is cut from it, in heights of the head below the chin.
+_KEPT_BELOW_CHIN = 1.5
 
 # Offsets below this [m] are dropped from the expressions.
 _SMALLEST_OFFSET = 1e-6
@@ -76,7 +74,7 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
 
     eyes = tuple(_eye(base, vertices, side) for side in ("l", "r"))
     landmarks = _landmarks(vertices, eyes)
-    skin, carry = _bust(base, vertices)
+    skin, carry = _bust(base, vertices, landmarks)
     parts = eyes + tuple(Part(kind, _smooth(base, vertices, group)) for group, kind in _PARTS)
     return Head(
         name="makehuman",
@@ -105,27 +103,15 @@ def _shape(base: BaseMesh, folder: Path, age: float, masculine: float) -> Floats
     return vertices
 
 
-def _bust(base: BaseMesh, vertices: Floats) -> tuple[TriangleMesh, object]:
-    """The subdivided skin of the bust and the matrix that makes it from all vertices of the base mesh."""
-    shoulders = {side: base.joint(f"{side}-shoulder", vertices) for side in ("l", "r")}
-    chest = np.array([0.0, shoulders["l"][1] - _CHEST_BELOW_SHOULDER, 0.0])
-    planes = [(chest, np.array([0.0, 1.0, 0.0]))]
-    for side, shoulder in shoulders.items():
-        down_arm = base.joint(f"{side}-elbow", vertices) - shoulder
-        down_arm /= np.linalg.norm(down_arm)
-        planes.append((shoulder + _ARM_BELOW_SHOULDER * down_arm, -down_arm))
-
+def _bust(base: BaseMesh, vertices: Floats, landmarks: Landmarks) -> tuple[TriangleMesh, sparse.csr_array]:
+    """The subdivided skin of the bust, and the matrix that makes it from all vertices of the base mesh."""
     body = base.quads("body", vertices)
-    near = np.ones(len(vertices), dtype=bool)
-    for point, normal in planes:
-        near &= (vertices - point) @ normal > -_MARGIN
+    near = vertices[:, 1] > landmarks.chin[1] - _KEPT_BELOW_CHIN * head_height(landmarks)
     coarse, old = body.selected(near[body.faces].all(axis=1))
-    fine, carry = catmull_clark(coarse)
-    skin = fine.triangulated()
-    for point, normal in planes:
-        skin, step = clip_by_plane(skin, point, normal)
-        carry = step @ carry
-    return skin, (carry, old)
+    fine, subdivide = catmull_clark(coarse)
+    skin, cut = cut_bust(fine.triangulated(), landmarks)
+    select = sparse.csr_array((np.ones(len(old)), (np.arange(len(old)), old)), shape=(len(old), len(vertices)))
+    return skin, cut @ subdivide @ select
 
 
 def _smooth(base: BaseMesh, vertices: Floats, group: str) -> TriangleMesh:
@@ -150,12 +136,11 @@ def _landmarks(vertices: Floats, eyes: tuple[Part, ...]) -> Landmarks:
     )
 
 
-def _expressions(folder: Path, count: int, carry: tuple) -> dict[str, Expression]:
+def _expressions(folder: Path, count: int, carry: sparse.csr_array) -> dict[str, Expression]:
     """MakeHuman's expression units on the skin of the bust [m]."""
-    matrix, old = carry
     expressions = {}
     for name in expression_names(folder):
-        offsets = matrix @ (expression_offsets(folder, name, count)[old] * _DECIMETRE)
+        offsets = carry @ (expression_offsets(folder, name, count) * _DECIMETRE)
         moved = np.nonzero(np.abs(offsets).max(axis=1) > _SMALLEST_OFFSET)[0]
         expressions[name] = Expression(moved, offsets[moved])
     return expressions

@@ -112,7 +112,9 @@ def add_target(vertices: Floats, folder: Path, name: str, weight: float) -> None
 def expression_names(folder: Path) -> tuple[str, ...]:
     """The names of MakeHuman's expression units, such as ``mouth-open``."""
     suffix = ".target.gz"
-    return tuple(sorted(path.name[: -len(suffix)] for path in (folder / "targets" / _UNITS / "caucasian").glob(f"*{suffix}")))
+    return tuple(
+        sorted(path.name[: -len(suffix)] for path in (folder / "targets" / _UNITS / "caucasian").glob(f"*{suffix}"))
+    )
 
 
 def expression_offsets(folder: Path, name: str, count: int) -> Floats:

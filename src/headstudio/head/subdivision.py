@@ -71,7 +71,12 @@ def catmull_clark(mesh: QuadMesh) -> tuple[QuadMesh, sparse.csr_array]:
 
 
 def _vertex_points(
-    count: int, faces: Ints, edges: Ints, inner_edge: np.ndarray, face_points: sparse.csr_array, midpoints: sparse.csr_array
+    count: int,
+    faces: Ints,
+    edges: Ints,
+    inner_edge: np.ndarray,
+    face_points: sparse.csr_array,
+    midpoints: sparse.csr_array,
 ) -> sparse.csr_array:
     """Where the old vertices go: (F + 2 R + (n - 3) P) / n inside, (R + P) / 2 with the border's own R on a border."""
     around_faces = _incidence(faces, count).T

@@ -1,0 +1,110 @@
+"""Landmarks of any upright head, from its shape.
+
+The profile gives what lies in the middle: the nose is what reaches farthest forward in the middle of the face, the
+nasion is the hollow above it, the chin the corner below it, the nape the hollow of the neck. The rest follows from the
+proportions of the face and from looking at the surface where it must lie. Lengths are in heights of the head, crown to
+chin, and come from MakeHuman's adults and the artist's canon (the face in thirds, the eyes half way).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .ears import find_tragus
+from .head import Landmarks
+from .mesh import Floats, TriangleMesh
+from .profile import Profile, midline, seen_from
+
+_EYE_SPREAD = 0.138
+_MOUTH_SPREAD = 0.101
+# How far back from the nasion to the hindmost point of the skull the ear hole lies.
+_TRAGUS_DEPTH = 0.454
+
+
+def find_landmarks(skin: TriangleMesh, height: float, eyes: tuple[Floats, Floats] | None = None) -> Landmarks:
+    """The landmarks of an upright head, mirrored at x = 0, face along +Z [m].
+
+    skin: a head, a bust or a whole body. height: of the head from crown to chin, within some 10 % [m]. eyes: the
+    pupils, left and right, shape (3,), when they are known.
+    """
+    profile = midline(skin)
+    top = float(profile.level[-1])
+    nose = _farthest(profile.between(top - 0.80 * height, top - 0.54 * height), (0.0, 1.0))
+    chin = _chin(profile, nose, height)
+    height = top - chin[1]
+    nasion = _nasion(profile, nose, height)
+    glabella = profile.front_at(nasion[1] + 0.05 * height)
+    hairline = profile.front_at(glabella[1] + 0.215 * height)
+    skull = profile.between(top - 0.7 * height, top - 0.05 * height)
+    occiput = skull.back_at(float(skull.level[skull.back.argmin()]))
+    neck = profile.between(chin[1] - 0.02 * height, chin[1] + 0.2 * height)
+    nape = neck.back_at(float(neck.level[neck.back.argmax()]))
+
+    if eyes is None:
+        eyes = _pair(skin, _EYE_SPREAD * height, nasion[1] - 0.008 * height)
+    mouth = _pair(skin, _MOUTH_SPREAD * height, _mouth_level(profile, nose, chin))
+    expected = [nose[1] + 0.045 * height, nasion[2] - _TRAGUS_DEPTH * (nasion[2] - occiput[2])]
+    tragus = [find_tragus(skin, np.array([side * 0.3 * height, *expected]), height) for side in (1.0, -1.0)]
+    return Landmarks(
+        crown=np.array([0.0, top, profile.front[-1]]),
+        hairline=hairline,
+        glabella=glabella,
+        nasion=nasion,
+        nose_tip=nose,
+        chin=chin,
+        nape=nape,
+        occiput=occiput,
+        left_tragus=tragus[0],
+        right_tragus=tragus[1],
+        left_eye=eyes[0],
+        right_eye=eyes[1],
+        mouth_left=mouth[0],
+        mouth_right=mouth[1],
+    )
+
+
+def skull_base(landmarks: Landmarks) -> Floats:
+    """The base of the skull, where the head turns on the neck [m], shape (3,): below and behind the ear holes."""
+    height = landmarks.crown[1] - landmarks.chin[1]
+    between = 0.5 * (landmarks.left_tragus + landmarks.right_tragus)
+    return np.array([0.0, between[1] - 0.06 * height, between[2] - 0.058 * height])
+
+
+def _farthest(profile: Profile, direction: tuple[float, float]) -> Floats:
+    """The point of the front that lies farthest in a direction (y, z)."""
+    best = int((profile.level * direction[0] + profile.front * direction[1]).argmax())
+    return profile.front_at(float(profile.level[best]))
+
+
+def _chin(profile: Profile, nose: Floats, height: float) -> Floats:
+    """The lower corner of the chin: farthest down and forward, above the hollow of the throat."""
+    below = profile.between(nose[1] - 0.46 * height, nose[1] - 0.17 * height)
+    hollow = below.front.argmin()
+    reached = below.between(float(below.level[hollow]), float(below.level[-1]))
+    return _farthest(reached, (-0.8, 0.6))
+
+
+def _nasion(profile: Profile, nose: Floats, height: float) -> Floats:
+    """The hollow between nose and forehead: deepest below the line that joins them."""
+    face = profile.between(nose[1] + 0.06 * height, nose[1] + 0.26 * height)
+    forehead = profile.front_at(nose[1] + 0.30 * height)
+    rise = (face.level - nose[1]) / (forehead[1] - nose[1])
+    depth = nose[2] + rise * (forehead[2] - nose[2]) - face.front
+    return profile.front_at(float(face.level[depth.argmax()]))
+
+
+def _mouth_level(profile: Profile, nose: Floats, chin: Floats) -> float:
+    """The level where the lips meet: the hollow between them when there is one, else its usual place."""
+    drop = nose[1] - chin[1]
+    usual = float(nose[1] - 0.45 * drop)
+    upper = _farthest(profile.between(usual + 0.02 * drop, usual + 0.16 * drop), (0.0, 1.0))
+    lower = _farthest(profile.between(usual - 0.16 * drop, usual - 0.02 * drop), (0.0, 1.0))
+    lips = profile.between(lower[1], upper[1])
+    hollow = int(lips.front.argmin())
+    return float(lips.level[hollow]) if 0 < hollow < len(lips.level) - 1 else usual
+
+
+def _pair(skin: TriangleMesh, spread: float, level: float) -> tuple[Floats, Floats]:
+    """The points of the front at a level, to the left and right of the middle by ``spread``."""
+    depth = seen_from(skin, 2, 1.0, np.array([[spread, level], [-spread, level]]))
+    return np.array([spread, level, depth[0]]), np.array([-spread, level, depth[1]])
