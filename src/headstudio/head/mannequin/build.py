@@ -1,4 +1,4 @@
-"""The mannequin as a head: clay to triangles, and the names of its points."""
+"""The mannequin as a head: metres, weights, eyes and the names of its points."""
 
 from __future__ import annotations
 
@@ -6,13 +6,12 @@ from functools import cache
 
 import igl
 import numpy as np
+import trimesh
 
 from ..head import Head, Landmarks, Part
-from ..mesh import Floats, Ints, TriangleMesh
-from .bust import CUT
+from ..mesh import Floats, TriangleMesh
 from .eyes import EYE, EYE_AXIS, EYE_RADIUS
-from .polygonise import polygonise
-from .sculpture import sculpture
+from .skin import charted, mirrored, sculpted_half
 
 _MM = 1e-3
 _MIRROR = np.array([-1.0, 1.0, 1.0])
@@ -20,96 +19,62 @@ _MIRROR = np.array([-1.0, 1.0, 1.0])
 
 @cache
 def mannequin() -> Head:
-    """The built-in head, made once by this project's own code: no file is read.
+    """The built-in head, made by this project's own code: no file is read. Made once, then kept.
 
-    Exactly symmetric, closed but for one loop in the plane the bust stands on.
+    An adult of neither sex in particular (see ``anthropometry``), exactly symmetric, closed but for one loop in the
+    plane the bust stands on.
     """
-    half_vertices, half_faces = polygonise(sculpture, (0, CUT, -160), (220, 165, 150), 3.2)
-    half_vertices = _onto_surface(_onto_surface(half_vertices))
-    vertices, faces = _mirrored(half_vertices, half_faces)
-    skin = TriangleMesh(vertices * _MM, faces, _chart(vertices, faces))
+    vertices, faces = sculpted_half()
+    vertices, faces, chart = mirrored(vertices, faces, charted(vertices, faces))
+    skin = TriangleMesh(vertices * _MM, faces, chart)
     return Head(
         name="mannequin",
         skin=skin,
         head_weight=_head_weight(vertices),
         landmarks=_landmarks(skin),
-        parts=(_eye(EYE), _eye(EYE * _MIRROR)),
-        notes=("built-in mannequin, adult of no sex, after ANSUR II and the NIOSH survey of 2003",),
+        parts=(_eye(EYE, EYE_AXIS), _eye(EYE * _MIRROR, EYE_AXIS * _MIRROR)),
+        notes=("built-in mannequin, after the adult means of ANSUR II and of the NIOSH survey of 2003",),
     )
 
 
-def _gradient(points: Floats, step: float = 0.05) -> Floats:
-    offsets = step * np.eye(3)
-    ahead = sculpture((points[:, None, :] + offsets).reshape(-1, 3)).reshape(-1, 3)
-    behind = sculpture((points[:, None, :] - offsets).reshape(-1, 3)).reshape(-1, 3)
-    return (ahead - behind) / (2.0 * step)
-
-
-def _onto_surface(points: Floats) -> Floats:
-    """One Newton step to the surface; points on the middle plane and on the cut stay in those planes."""
-    slope = _gradient(points)
-    slope[points[:, 0] < 1e-9, 0] = 0.0
-    slope[points[:, 1] < CUT + 1e-9, 1] = 0.0
-    step = sculpture(points) / np.maximum(np.einsum("ij,ij->i", slope, slope), 0.2)
-    moved = points - np.clip(step[:, None] * slope, -1.0, 1.0)
-    moved[:, 0] = np.maximum(moved[:, 0], 0.0)
-    return moved
-
-
-def _mirrored(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
-    """A half and its mirror image, joined along the middle plane."""
-    middle = vertices[:, 0] < 1e-9
-    twin = np.arange(len(vertices))
-    twin[~middle] = len(vertices) + np.arange(np.count_nonzero(~middle))
-    both = np.concatenate([vertices, vertices[~middle] * _MIRROR])
-    return both, np.concatenate([faces, twin[faces[:, ::-1]]])
-
-
-def _chart(vertices: Floats, faces: Ints) -> Floats:
-    """Cylindrical texture coordinates with a seam at the back, shape (m, 3, 2)."""
-    corners = vertices[faces]
-    left = corners[..., 0].sum(axis=1) > 0
-    angle = np.arctan2(np.abs(corners[..., 0]), corners[..., 2]) / (2.0 * np.pi)
-    u = np.where(left[:, None], 0.5 + angle, 0.5 - angle)
-    low, high = vertices[:, 1].min(), vertices[:, 1].max()
-    return np.stack([u, (corners[..., 1] - low) / (high - low)], axis=-1)
-
-
 def _head_weight(vertices: Floats) -> Floats:
-    """1 above the jaw, 0 below the collar, smooth along the neck, which leans forward."""
-    along = vertices[:, 1] - 0.35 * vertices[:, 2]
-    t = np.clip((along + 115.0) / 90.0, 0.0, 1.0)
+    """1 above the line from chin to nape, 0 below the collar, smooth on the neck; vertices in mm."""
+    along = vertices[:, 1] + 0.35 * vertices[:, 2]
+    t = np.clip((along + 128.0) / 80.0, 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
 
 
 def _landmarks(skin: TriangleMesh) -> Landmarks:
-    named = {
-        "crown": (0, 149, -12),
-        "hairline": (0, 112, 84),
-        "glabella": (0, 56, 103),
-        "nasion": (0, 43, 98),
-        "nose_tip": (0, 3, 124),
-        "chin": (0, -71, 84),
-        "nape": (0, -25, -70),
-        "occiput": (0, 58, -92),
-        "left_tragus": (73, 20, 0),
-        "mouth_left": (24.7, -28.6, 92),
-    }
-    points = np.array(list(named.values()), dtype=float) * _MM
-    _, _, near = igl.point_mesh_squared_distance(points, skin.vertices, skin.faces)
-    at = dict(zip(named, near))
-    at["right_tragus"] = at["left_tragus"] * _MIRROR
-    at["mouth_right"] = at["mouth_left"] * _MIRROR
-    at["left_eye"] = (EYE + EYE_RADIUS * EYE_AXIS) * _MM
-    at["right_eye"] = at["left_eye"] * _MIRROR
-    return Landmarks(**at)
+    """Extremes of the middle line, and points of the sculpture laid onto the skin."""
+    middle = skin.vertices[skin.vertices[:, 0] == 0.0]
+    front, back = middle[middle[:, 2] > 0.02], middle[middle[:, 2] < -0.02]
+
+    def extreme(line: Floats, direction: tuple[int, int, int], low: float, high: float) -> Floats:
+        line = line[(line[:, 1] > low) & (line[:, 1] < high)]
+        return line[np.argmax(line @ direction)]
+
+    sides = np.array([(74.0, 20.0, 0.0), (24.7, -29.0, 92.0)]) * _MM
+    _, _, (tragus, mouth) = igl.point_mesh_squared_distance(sides, skin.vertices, skin.faces)
+    pupil = (EYE + EYE_RADIUS * EYE_AXIS) * _MM
+    return Landmarks(
+        crown=extreme(middle, (0, 1, 0), 0.1, 0.2),
+        hairline=front[np.argmin(np.abs(front[:, 1] - 0.112))],
+        glabella=extreme(front, (0, 0, 1), 0.05, 0.064),
+        nasion=extreme(front, (0, 0, -1), 0.034, 0.05),
+        nose_tip=extreme(front, (0, 0, 1), -0.01, 0.02),
+        chin=extreme(front[front[:, 2] > 0.06], (0, -1, 0), -0.09, -0.05),
+        nape=back[np.argmin(np.abs(back[:, 1] + 0.03))],
+        occiput=extreme(back, (0, 0, -1), 0.02, 0.12),
+        left_tragus=tragus,
+        right_tragus=tragus * _MIRROR,
+        left_eye=pupil,
+        right_eye=pupil * _MIRROR,
+        mouth_left=mouth,
+        mouth_right=mouth * _MIRROR,
+    )
 
 
-def _eye(centre: Floats) -> Part:
-    """A ball of 48 by 24 quads around the axis of the eye."""
-    import trimesh
-
+def _eye(centre: Floats, axis: Floats) -> Part:
     ball = trimesh.creation.uv_sphere(radius=EYE_RADIUS, count=(24, 48))
-    vertices = (np.asarray(ball.vertices) + centre) * _MM
-    axis = EYE_AXIS * np.sign([centre[0], 1.0, 1.0])
-    return Part("eye", TriangleMesh(vertices, ball.faces), centre * _MM, axis, EYE_RADIUS * _MM)
+    mesh = TriangleMesh((np.asarray(ball.vertices) + centre) * _MM, np.asarray(ball.faces))
+    return Part("eye", mesh, centre * _MM, axis, EYE_RADIUS * _MM)

@@ -24,14 +24,15 @@ ANTIHELIX = Tube([(12, 26, 4), (18, 16, 5), (17, 4, 5.5), (11, -9, 4.5), (5, -13
 
 def _shape(p: Floats, head: Floats) -> Floats:
     q = _FRAME.T @ (p - EAR[:, None])
-    shell = ellipsoid(q, (12, 7, 1.5), (17, 27, 3.2))
+    head = join(head, cone(q, (6, 0, -3.5), (-2, 0, -16), 13, 14), 8)  # back of the concha
+    shell = ellipsoid(q, (12, 7, 1.5), (17, 27, 3.6))
     shell = join(shell, ellipsoid(q, (5, -21, 1), (7.5, 10, 3.4), (0, 0, 10)), 8)  # lobe
     shell = join(shell, HELIX(q), 4)
-    shell = carve(shell, ellipsoid(q, (8, 0, 8), (8, 11, 8.5)), 4)  # concha
-    shell = join(shell, ANTIHELIX(q), 4)
     head = join(head, shell, 5)
+    head = carve(head, ellipsoid(q, (8.5, 0.5, 9), (8, 10.5, 9)), 4)  # concha
+    head = join(head, ANTIHELIX(q), 4)
     head = join(head, ellipsoid(q, (-1.5, 0, 2.5), (3.4, 5.5, 3.4)), 4)  # tragus
-    return carve(head, cone(q, (5, 0, 3), (1, 0, -5), 3, 2.4), 3)  # ear hole
+    return carve(head, cone(q, (4.5, -1, 3), (2, -1, -4), 3, 2.4), 3)  # ear hole
 
 
 def ears(p: Floats, head: Floats) -> Floats:

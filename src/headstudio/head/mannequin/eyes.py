@@ -36,7 +36,7 @@ def _shape(p: Floats, head: Floats) -> Floats:
     head = join(head, ellipsoid(p, EYE, (EYE_RADIUS + LID + 2.5, EYE_RADIUS + LID, EYE_RADIUS + LID)), 8)  # lids
     head = carve(head, CREASE(p), 3.0)
     # The floor of the slit lies under the ball, and before it only in the corners.
-    return carve(head, np.maximum(_almond(p), EYE[2] + 6.2 - p[2]), 1.4)
+    return carve(head, np.maximum(_almond(p), EYE[2] + 6.2 - p[2]), 2.2)
 
 
 def eyes(p: Floats, head: Floats) -> Floats:

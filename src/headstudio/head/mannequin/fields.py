@@ -95,9 +95,7 @@ def bump(p: Floats, centre: Vector, widths: Vector) -> Floats:
     return np.exp(-_dot(q, q))
 
 
-def shaped(
-    p: Floats, field: Floats, low: Vector, high: Vector, shape: Callable[[Floats, Floats], Floats]
-) -> Floats:
+def shaped(p: Floats, field: Floats, low: Vector, high: Vector, shape: Callable[[Floats, Floats], Floats]) -> Floats:
     """``field`` with its part in an axis-aligned box replaced by ``shape(points, field)`` of that part.
 
     Away from the box the shape must change nothing: this only saves the work.

@@ -6,7 +6,7 @@ from ..mesh import Floats
 from .fields import Tube, carve, cone, ellipsoid, join, shaped
 
 UPPER_LIP = Tube(
-    [(-5, -22.8, 102.5), (0, -23.8, 103.2), (5, -22.8, 102.5), (14, -25.4, 98.6), (23.5, -28.8, 89.5)],
+    [(-5, -22.6, 103.0), (0, -23.8, 103.8), (5, -22.6, 103.0), (14, -25.2, 99.2), (23.5, -28.8, 89.5)],
     [5.9, 5.7, 5.9, 4.6, 2.2],
 )
 LOWER_LIP = Tube(
@@ -14,15 +14,22 @@ LOWER_LIP = Tube(
     [6.4, 6.5, 6.4, 5.0, 2.2],
 )
 PARTING = Tube(
-    [(-8, -28.6, 108.8), (0, -29.5, 109.3), (8, -28.4, 108.3), (16, -28.7, 103.5), (22, -29.2, 98), (26, -29.8, 94.4)],
-    [1.2, 1.2, 1.2, 1.2, 1.3, 1.2],
+    [
+        (-8, -28.6, 108.8),
+        (0, -29.5, 109.3),
+        (8, -28.4, 108.3),
+        (16, -28.7, 103.5),
+        (22, -29.1, 98.4),
+        (27, -29.6, 95.5),
+    ],
+    [1.3, 1.3, 1.3, 1.2, 0.9, 0.3],
 )
 
 
 def _shape(p: Floats, head: Floats) -> Floats:
-    head = join(head, join(UPPER_LIP(p), LOWER_LIP(p), 1.5), 5)
-    head = carve(head, PARTING(p), 2.5)
-    head = carve(head, cone(p, (0, -10, 110.5), (0, -18, 112.0), 2.4, 3.2), 6)  # philtrum
+    head = join(head, join(UPPER_LIP(p), LOWER_LIP(p), 2.0), 5)
+    head = carve(head, PARTING(p), 3.0)
+    head = carve(head, cone(p, (0, -9, 111.5), (0, -21, 114.6), 2.6, 4.2), 7)  # philtrum
     return carve(head, ellipsoid(p, (0, -44.5, 106), (16, 4, 6)), 9)  # fold above the chin
 
 
