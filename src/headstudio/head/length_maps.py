@@ -53,14 +53,14 @@ def _long_back(u: Floats, v: Floats) -> Floats:
 
 def _bob(u: Floats, v: Floats) -> Floats:
     # Cut at one height: hair that starts higher on the head is longer.
-    height = np.sin(np.pi * np.clip(v, 0, 1)) * (1 - 0.5 * _off_middle(u) ** 2)
-    return np.minimum(0.45 + 0.4 * height, 0.15 + 0.9 * _fringe(u, v))
+    height = np.sin(np.pi * v) * (1 - 0.5 * _off_middle(u) ** 2)
+    return np.minimum(0.45 + 0.35 * height, _fringe(u, v))
 
 
 def _short(u: Floats, v: Floats) -> Floats:
-    sides = _ramp(_off_middle(u), 0.3, 0.9)
-    back = _ramp(v, 0.5, 0.95)
-    return 0.25 - 0.15 * np.maximum(sides, back)
+    # Longest on top, tapering to the forehead, the ears and the nape.
+    rim = np.maximum(0.6 * (1 - _ramp(v, 0.0, 0.25)), np.maximum(_ramp(_off_middle(u), 0.3, 0.9), _ramp(v, 0.5, 0.95)))
+    return 0.25 - 0.15 * rim
 
 
 _PRESETS = {"even": _even, "fringe": _fringe, "long back": _long_back, "bob": _bob, "short": _short}

@@ -43,8 +43,9 @@ class GrayImage:
 class ScalpSettings:
     """Where hair grows and how long: Bando et al. 2006, section 3.2.
 
-    curves: control points of the four Catmull-Rom curves around the scalp [m], head frame; each curve runs from one
-    corner of the unit square to the next and shares its ends with its neighbours. Empty: placed from landmarks.
+    curves: control points of the four Catmull-Rom curves around the scalp [m], head frame: along the forehead from
+    right to left, down the left side, along the nape from left to right, up the right side. Each ends where the next
+    one starts, at a corner of the unit square. Empty: placed from landmarks.
     painted_lengths: a painted length map that takes the place of the named one.
     """
 
@@ -52,7 +53,7 @@ class ScalpSettings:
         0.5, "Whorl u", "", 0.0, 1.0, "Where the whorl lies on the scalp square, from right to left."
     )
     whorl_v: float = number(
-        0.55, "Whorl v", "", 0.0, 1.0, "Where the whorl lies on the scalp square, from front to back."
+        0.38, "Whorl v", "", 0.0, 1.0, "Where the whorl lies on the scalp square, from front to back."
     )
     length_map: str = choice("fringe", "Length map", LENGTH_MAPS, "How hair length varies over the scalp.")
     curves: tuple[tuple[tuple[float, float, float], ...], ...] = ()
