@@ -6,7 +6,8 @@ import time
 
 from imgui_bundle import imgui
 
-from . import shell, status, theme, toasts
+from ..scene.stage import Stage
+from . import shell, status, theme, toasts, view_bar
 from .actions import Actions
 from .commands import run_pressed
 from .dialogs import Dialogs
@@ -45,6 +46,7 @@ class Application:
         self.sidebar = Sidebar(self.rows, self.viewport)
         self.transport = Transport(studio, self.recorder, self.actions.record)
         self.closed = False
+        self._measured: Stage | None = None
         window.on_drop = self.actions.take_dropped
         self._last = time.perf_counter()
 
@@ -65,6 +67,7 @@ class Application:
             self.actions.quit()
         self.studio.tick(wall, self.recorder.frame_seconds)
         self._draw()
+        self._measure()
         self.window.set_title(f"{self.studio.work.name}{' *' if self.studio.work.modified else ''} - headstudio")
         self.window.end_frame(theme.GROUND)
         self._record()
@@ -115,13 +118,37 @@ class Application:
     def _draw_view(self, layout: shell.Layout) -> None:
         view = layout.view
         self.viewport.draw(self.ui, (view.width, view.height), self.window.pixels_per_unit)
+        view_bar.draw(self.ui, self.viewport, view)
         status.progress(self.ui, self.studio, view)
         toasts.draw(self.ui, self.studio.messages, view)
 
     def _draw_right(self) -> None:
         self.rows.search(self.ui)
         for panel in self.editor.panels:
-            self.rows.panel(self.ui, panel)
+            self.rows.panel(self.ui, panel, self._draw_head_sources if panel.part == "head" else None)
+
+    def _draw_head_sources(self) -> None:
+        """Buttons for what the head's text field takes."""
+        source = self.studio.document.head.source
+        names = {"MakeHuman": "makehuman", "Mannequin": "mannequin"}
+        width = (imgui.get_content_region_avail().x - 2 * imgui.get_style().item_spacing.x) / 3
+        for label, name in names.items():
+            if self.ui.button(label, on=source == name, width=width):
+                self.rows.set("head.source", name)
+            imgui.same_line()
+        help_ = "Choose a mesh: OBJ, PLY, STL, OFF, GLB."
+        if self.ui.button("File...", help_, on=source not in names.values(), width=width):
+            self.actions.import_head()
+
+    def _measure(self) -> None:
+        """Keep the figures of a frame that moved."""
+        grown = self.studio.grown
+        if grown is None or self.studio.stage is self._measured:
+            return
+        self._measured = self.studio.stage
+        simulation = grown.simulation
+        stages = simulation.timings | self.viewport.renderer.timer.stages
+        self.transport.plots.record(simulation.time, simulation.measure(), stages)
 
     def _record(self) -> None:
         if not self.recorder.recording or self.studio.stage is None:

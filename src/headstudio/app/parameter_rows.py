@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -30,8 +31,11 @@ class ParameterRows:
         self._editing = False
         self._complaint = ""
 
-    def panel(self, ui: Ui, panel: Panel) -> None:
-        """A folding panel with the parameters of one part of the document, those that match the search."""
+    def panel(self, ui: Ui, panel: Panel, before: Callable[[], None] | None = None) -> None:
+        """A folding panel with the parameters of one part of the document, those that match the search.
+
+        ``before``: draws something above the parameters.
+        """
         paths = [
             path
             for path in defaults()
@@ -44,9 +48,12 @@ class ParameterRows:
         if self.wanted:
             imgui.set_next_item_open(True)
         with ui.section(panel.title, opened=panel.opened) as shown:
-            if shown:
-                for path in paths:
-                    self.row(ui, path)
+            if not shown:
+                return
+            if before is not None and not self.wanted:
+                before()
+            for path in paths:
+                self.row(ui, path)
 
     def row(self, ui: Ui, path: str) -> None:
         """One parameter with its label."""

@@ -54,7 +54,7 @@ def shown_text(declared: Parameter, value: Any) -> str:
     """A value as the window writes it, with its unit."""
     match declared.kind:
         case "number":
-            return number_format(declared) % (value * declared.shown_scale)
+            return number_format(declared, value) % (value * declared.shown_scale)
         case "switch":
             return "on" if value else "off"
         case "colour":
@@ -63,14 +63,21 @@ def shown_text(declared: Parameter, value: Any) -> str:
             return str(value)
 
 
-def number_format(declared: Parameter) -> str:
-    """A printf format with as many digits as the range deserves, and the unit behind."""
-    unit = {"deg": "°"}.get(declared.shown_unit, f" {declared.shown_unit}" if declared.shown_unit else "")
-    if declared.log:
-        return "%.3g" + unit
+def number_format(declared: Parameter, value: float) -> str:
+    """A printf format with as many digits as range and value deserve, and the unit behind."""
+    return f"%.{_digits(declared, value)}f{_unit(declared)}"
+
+
+def _digits(declared: Parameter, value: float) -> int:
+    """Three figures: of the value on a logarithmic slider, else of the range."""
     span = ((declared.high or 0) - (declared.low or 0)) * declared.shown_scale
-    digits = max(0, 2 - math.floor(math.log10(span))) if span > 0 else 2
-    return f"%.{min(digits, 4)}f{unit}"
+    size = abs(value * declared.shown_scale) if declared.log else span
+    return min(max(2 - math.floor(math.log10(size)), 0), 4) if size > 0 else 2
+
+
+def _unit(declared: Parameter) -> str:
+    unit = declared.shown_unit.replace("^2", "²").replace("^3", "³")
+    return {"": "", "deg": "°"}.get(unit, f" {unit}")
 
 
 def _draw_label(ui: Ui, label: str, *, changed: bool, width: float) -> None:
@@ -126,7 +133,7 @@ def _number(ui: Ui, declared: Parameter, value: float) -> tuple[bool, float]:
     _draw_bar(ui, _fraction(declared, value))
     with _Bare():
         changed, shown = imgui.slider_float(
-            f"##{declared.label}", value * scale, low, high, number_format(declared), flags
+            f"##{declared.label}", value * scale, low, high, number_format(declared, value), flags
         )
     # ImGui counts in single precision: six digits are what it can say.
     return changed, float(f"{shown:.6g}") / scale if changed else value

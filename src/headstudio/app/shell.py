@@ -27,7 +27,7 @@ STATUS = 26.0
 class Sizes:
     """Widths and heights on a plain screen, which the user changes by dragging the edges."""
 
-    left: float = 236.0
+    left: float = 252.0
     right: float = 330.0
     foot: float = 196.0
     panels: bool = True

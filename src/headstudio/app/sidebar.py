@@ -93,6 +93,7 @@ class Sidebar:
                 if k % COLUMNS:
                     imgui.same_line(imgui.get_style().window_padding.x + width / COLUMNS)
                 self.rows.tick(ui, f"look.{name}")
+            imgui.separator()
             self.rows.tick(ui, "lcp.interactions")
 
 

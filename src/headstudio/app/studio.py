@@ -18,7 +18,6 @@ from .builds import Builds
 from .messages import Messages
 from .performance import Performance
 from .playback import Playback
-from .plots import Plots
 from .work import Work
 
 # What the program foresaw and says in its own words; anything else is named with its type.
@@ -46,7 +45,6 @@ class Studio:
         self.stage: Stage | None = None
         builder = Builder(lambda part: self.builds.announce(part))
         self.builds: Builds[Grown] = Builds(lambda document: _grow(builder, document))
-        self.plots = Plots()
         self._tuned: Document | None = None
 
     # -- the work ----------------------------------------------------------------------------------------------------
@@ -142,7 +140,6 @@ class Studio:
             self.stage = None
         if self.stage is None:
             self.stage = simulation.stage()
-            self.plots.record(simulation.time, simulation.measure(), simulation.timings)
 
     @property
     def building(self) -> bool:

@@ -8,11 +8,12 @@ from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
 from . import theme
+from .plots import Plots
 from .recorder import Recorder
 from .studio import Studio
 from .ui import Ui
 
-SPEEDS = {"1/8 x": 0.125, "1/4 x": 0.25, "1/2 x": 0.5, "1 x": 1.0}
+SPEEDS = {"1/8": 0.125, "1/4": 0.25, "1/2": 0.5, "1": 1.0}
 
 
 class Transport:
@@ -22,6 +23,7 @@ class Transport:
         self._studio = studio
         self._recorder = recorder
         self._ask_record = ask_record
+        self.plots = Plots()
 
     def draw(self, ui: Ui) -> None:
         """The row of buttons, and the plots below in what height is left."""
@@ -30,7 +32,7 @@ class Transport:
             self._draw_clock(ui)
         left = imgui.get_content_region_avail().y
         if left > ui.px(60):
-            self._studio.plots.draw(ui, left)
+            self.plots.draw(ui, left)
 
     def _draw_buttons(self, ui: Ui) -> None:
         playback = self._studio.playback
@@ -63,7 +65,7 @@ class Transport:
         imgui.set_next_item_width(ui.px(78))
         names = list(SPEEDS)
         present = next((k for k, speed in enumerate(SPEEDS.values()) if speed == playback.speed), len(names) - 1)
-        _, chosen = imgui.combo("##Speed", present, names)
+        _, chosen = imgui.combo("##Speed", present, [f"{name} x" for name in names])
         playback.speed = SPEEDS[names[chosen]]
         ui.note("Speed")
         ui.hint("How fast time runs")

@@ -44,6 +44,7 @@ class Viewport:
     def __init__(self, studio: Studio, gl: moderngl.Context, tool: Tool) -> None:
         self.studio = studio
         self.renderer = Renderer(gl)
+        self.renderer.timer.on = True
         self.tool = tool
         self.adaptive = True
         self.rect = Rect(0, 0, 1, 1)

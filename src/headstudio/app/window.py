@@ -36,7 +36,8 @@ class Window:
         self._handle = _open(title, size, headless)
         glfw.make_context_current(self._handle)
         glfw.swap_interval(0 if headless else 1)
-        glfw.set_window_size_limits(self._handle, 800, 560, glfw.DONT_CARE, glfw.DONT_CARE)
+        if not headless:
+            glfw.set_window_size_limits(self._handle, 800, 560, glfw.DONT_CARE, glfw.DONT_CARE)
         # GLFW's Python layer gives a list of paths, whatever its type says.
         glfw.set_drop_callback(self._handle, self._take_dropped)  # type: ignore[arg-type]
         try:
@@ -50,8 +51,12 @@ class Window:
         # The layout is the studio's own, so there is nothing for ImGui to keep between two runs.
         imgui.get_io().set_ini_filename("")
         imgui.get_io().config_flags |= imgui.ConfigFlags_.nav_enable_keyboard.value
-        imgui.backends.glfw_init_for_opengl(ctypes.cast(self._handle, ctypes.c_void_p).value or 0, True)
+        address = ctypes.cast(self._handle, ctypes.c_void_p).value or 0
+        imgui.backends.glfw_init_for_opengl(address, True)
         imgui.backends.opengl3_init("#version 330")
+        if headless:
+            # The mouse is where the events say, and not where a system has left its cursor.
+            imgui.backends.glfw_cursor_enter_callback(address, 1)
 
     @property
     def scale(self) -> float:

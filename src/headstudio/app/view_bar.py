@@ -1,0 +1,33 @@
+"""The buttons in the corner of the viewport: the sides to look from, and framing."""
+
+from __future__ import annotations
+
+from imgui_bundle import icons_fontawesome_6 as icons
+from imgui_bundle import imgui
+
+from . import theme
+from .ui import Rect, Ui
+from .viewport import Viewport
+
+SIDES = {"Front": "front", "Left": "left", "Right": "right", "Back": "back", "Top": "top"}
+
+
+def draw(ui: Ui, viewport: Viewport, area: Rect) -> None:
+    """Draw them in the upper right corner of ``area``."""
+    style = imgui.get_style()
+    labels = [*SIDES, icons.ICON_FA_EXPAND]
+    padding = 2 * style.frame_padding.x
+    gap = ui.px(2)
+    width = sum(imgui.calc_text_size(label).x + padding + gap for label in labels)
+    if width > area.width:
+        return
+    imgui.set_cursor_screen_pos((area.x + area.width - width - ui.px(8), area.y + ui.px(8)))
+    imgui.push_style_color(imgui.Col_.button.value, theme.rgba(theme.GROUND, 0.35))
+    with ui.within("Views"):
+        for label, side in SIDES.items():
+            if ui.button(label, f"Look at the {side} of the head."):
+                viewport.look_from(side)
+            imgui.same_line(0, gap)
+        if ui.button("##Frame", "See all of head and hair (F).", icon=icons.ICON_FA_EXPAND):
+            viewport.frame_all()
+    imgui.pop_style_color()
