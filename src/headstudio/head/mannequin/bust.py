@@ -42,4 +42,4 @@ def bust(p: Floats, head: Floats) -> Floats:
     """``head`` on its neck and shoulders, for points with x >= 0 [mm]."""
     body = shaped(p, COLUMN(p), (-1, -175, -60), (85, 45, 45), _muscle)
     body = shaped(p, body, (-1, -400, -400), (400, 10, 400), _shoulders)
-    return join(head, body, 16)
+    return join(head, body, 22)

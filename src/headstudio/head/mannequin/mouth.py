@@ -29,7 +29,7 @@ PARTING = Tube(
 def _shape(p: Floats, head: Floats) -> Floats:
     head = join(head, join(UPPER_LIP(p), LOWER_LIP(p), 2.0), 5)
     head = carve(head, PARTING(p), 3.0)
-    head = carve(head, cone(p, (0, -9, 111.5), (0, -21, 114.6), 2.6, 4.2), 7)  # philtrum
+    head = carve(head, cone(p, (0, -7, 111), (0, -21, 114.8), 2.6, 4.2), 7)  # philtrum
     return carve(head, ellipsoid(p, (0, -44.5, 106), (16, 4, 6)), 9)  # fold above the chin
 
 

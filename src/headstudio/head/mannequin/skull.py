@@ -13,17 +13,17 @@ HEAD = Lines(
         Section(126, 57.5, -13, 71, -77, 0, 0.07),
         Section(106, 70, -15, 92, -89, 0.07, 0.12),
         Section(85, 75, -16, 99.5, -92, 0.12, 0.12),
-        Section(65, 75.5, -16, 100.5, -92, 0.17, 0.12),
-        Section(50, 74, -12, 97, -90, 0.17, 0.07),
-        Section(35, 71, -2, 93, -86, 0.17, 0),
-        Section(18, 68.5, 10, 93, -79, 0.15, 0),
+        Section(65, 75.5, -16, 100.5, -92.5, 0.17, 0.12),
+        Section(50, 74, -12, 96, -91, 0.17, 0.07),
+        Section(35, 71, -2, 91, -87, 0.17, 0),
+        Section(18, 68.5, 10, 92, -80, 0.15, 0),
         Section(0, 66.5, 14, 95, -70, 0.09, 0),
         Section(-18, 62.5, 14, 97, -58, 0.07, 0),
         Section(-36, 55.5, 14, 97, -30, 0, 0),
-        Section(-48, 48, 24, 96, 0, 0, 0.12),
-        Section(-58, 38.5, 42, 97, 30, 0, 0.12),
-        Section(-66, 26, 60, 94, 52, 0, 0.12),
-        Section(-72.5, 0, 70, 0, 0),
+        Section(-48, 48, 24, 96, 6, 0, 0.12),
+        Section(-58, 38.5, 44, 97, 38, 0, 0.12),
+        Section(-66, 26, 62, 94, 56, 0, 0.12),
+        Section(-72.5, 0, 72, 0, 0),
     ]
 )
 
@@ -31,10 +31,9 @@ HEAD = Lines(
 def skull(p: Floats) -> Floats:
     """Head without eyes, nose, lips and ears, for points with x >= 0 [mm]."""
     head = HEAD(p)
-    head = join(head, ellipsoid(p, (41, 10, 51), (22, 19, 27), (0, 35, 0)), 34)  # cheekbone
+    head = join(head, ellipsoid(p, (40, 11, 46), (22, 17, 32), (0, 28, 0)), 34)  # cheekbone
     head = join(head, ellipsoid(p, (36, -20, 52), (20, 30, 27), (0, 30, 0)), 26)  # cheek
-    head = join(head, cone(p, (0, 55, 86), (32, 60, 73), 12, 11), 30)  # brow ridge
+    head = join(head, cone(p, (0, 56, 85.5), (32, 60, 73), 11, 11), 30)  # brow ridge
     head = join(head, ellipsoid(p, (0, -28, 70), (31, 27, 35)), 26)  # the barrel of the teeth
     head = join(head, ellipsoid(p, (0, -58, 86), (17, 12, 13)), 18)  # chin
-    head += 2.5 * bump(p, (68, 58, 58), (18, 26, 22))  # temple
-    return head
+    return head + 2.5 * bump(p, (68, 58, 58), (18, 26, 22))  # hollow of the temple
