@@ -47,19 +47,17 @@ class Run:
     """A document in motion, frame by frame, with the figures of every frame."""
 
     document: Document
-    motion: Motion
     built: Built
-    photographer: Photographer | None = None
     frames: list[Figures] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.simulation = Simulation(self.built, self.document)
 
-    def play(self, count: int, fps: float) -> Iterator[Stage]:
+    def play(self, motion: Motion, count: int, fps: float) -> Iterator[Stage]:
         """Go on by ``count`` frames of 1/fps [s]; yields each when its figures are taken. Tells what was repaired."""
         for _ in range(count):
             start = time.perf_counter()
-            self.simulation.advance(self.motion, 1 / fps)
+            self.simulation.advance(motion, 1 / fps)
             elapsed = time.perf_counter() - start
             for note in self.simulation.notes:
                 warn(note)
@@ -68,16 +66,16 @@ class Run:
 
     def _figures(self, elapsed: float) -> Figures:
         measured = self.simulation.measure()
-        stages = {f"ms_{stage}": 1000 * seconds for stage, seconds in self.simulation.timings.items()}
+        stages = {f"ms_{stage}": spent for stage, spent in self.simulation.timings.items()}
         figures = {"time": self.simulation.time, **measured, **stages, "ms_simulation": 1000 * elapsed}
         # JSON knows no infinity: a figure that has no value (the distance of pairs, where there are none) is null.
         return {name: float(value) if math.isfinite(value) else None for name, value in figures.items()}
 
-    def report(self) -> dict[str, Any]:
-        """The content of the stats file, SI throughout."""
+    def report(self, renderer: str | None) -> dict[str, Any]:
+        """The content of the stats file, SI throughout. ``renderer``: what drew the frames, if anything did."""
         return {
             "versions": versions(),
-            "renderer": self.photographer.device if self.photographer else None,
+            "renderer": renderer,
             "seed": self.document.hair.seed,
             "particles": self.built.hair.count,
             "links": len(self.built.hair.links),
@@ -89,16 +87,16 @@ class Run:
 def simulate(document: Document, motion: Motion, shot: Shot) -> None:
     """Film a document in motion and write its figures. Raises what building, drawing and writing raise."""
     photographer = Photographer(shot.size) if shot.film else None
-    run = Run(document, motion, build(document), photographer)
+    run = Run(document, build(document))
     with ExitStack() as stack:
         film: Film | None = stack.enter_context(open_film(shot.film, shot.fps, shot.size)) if shot.film else None
         progress = stack.enter_context(counting("simulating", shot.frames))
-        for stage in run.play(shot.frames, shot.fps):
+        for stage in run.play(motion, shot.frames, shot.fps):
             if film is not None and photographer is not None:
                 film.add(photographer.picture(stage, document))
             progress.advance(progress.task_ids[0])
     if shot.stats is not None:
-        write_report(run.report(), shot.stats)
+        write_report(run.report(photographer.device if photographer else None), shot.stats)
     for line in summary(run, shot):
         results.out(line)
 

@@ -30,7 +30,7 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
     coordinates = coordinates[np.argsort(coordinates[:, 2], kind="stable")]
     uv, arc_length = coordinates[:, :2], coordinates[:, 2]
     roots = scalp.points(uv)
-    length = settings.length * scalp.lengths(uv)
+    length: Floats = settings.length * scalp.lengths(uv)
     root_directions = scalp.root_directions(uv, settings.lie_down, settings.stand_up)
     positions, directions = hang(roots, root_directions, arc_length, length, settings.bending_length, body)
 

@@ -44,9 +44,9 @@ def connect(
     (n, 3); arc_length: s [m], below 0 for root particles, (n,); smoothing_length: h_1 [m].
 
     Particles are linked because they share strands. A pair that meets in space but grows from roots farther apart than
-    ``same_strands`` [m], that lies much closer in space than along the hair (eq. 3), or whose arc lengths run against its
-    order in space, shares none and is left out, as are pairs of root particles. Every other particle gets a link toward the root, if need be one that a_0 would forbid: hair grows
-    out of the head and nowhere else.
+    ``same_strands`` [m], that lies much closer in space than along the hair (eq. 3), or whose arc lengths run against
+    its order in space, shares none and is left out, as are pairs of root particles. Every other particle gets a link
+    toward the root, if need be one that a_0 would forbid: hair grows out of the head and nowhere else.
     """
     pairs = find_pairs(positions, 2.0 * smoothing_length)
     fixed = arc_length < 0
@@ -141,8 +141,9 @@ def _select(links: Links, which: np.ndarray) -> Links:
 def _prune(links: Links, count: int, smoothing_length: float) -> Links:
     """Drop links that count for nothing, then weak ones, until no particle has many more than ``WANTED_LINKS``.
 
-    This goes in rounds: in a round every particle with too many gives up its weakest link (the smallest c_ij W(l_ij, h_1)). The strongest
-    rootward links of a particle are never given up: particles on the border of the hair have few, and come off first.
+    This goes in rounds: every particle with too many gives up its weakest link (the smallest c_ij W(l_ij, h_1)). The
+    strongest rootward links of a particle are never given up: particles on the border of the hair have few, and come
+    off first.
     """
     weight = links.strength * kernel(links.rest_length, smoothing_length)
     order = np.argsort(-weight, kind="stable")

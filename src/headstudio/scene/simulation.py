@@ -26,6 +26,9 @@ from .stage import HairOnStage, Stage
 STEP_RATE = 60.0
 """Internal steps of the real-time solver per second."""
 
+SPLIT_HOLD = 0.3, 1.8
+"""When the hands of the motion "split" hold the hair apart: from, until [s]."""
+
 _LONGEST_FRAME = 0.25  # what a single frame may ask for [s]; a longer hiccup is not caught up with
 _SNAPSHOT_EVERY = 0.5  # [s]
 _TOP_SPEED = 60.0  # hair faster than this has exploded [m/s]
@@ -112,6 +115,7 @@ class Simulation:
     def step(self, motion: Motion, dt: float) -> None:
         """One internal step of dt [s]: air, hair, and a look at whether the result can be right."""
         frame = motion(self.state.time + dt)
+        self._follow_script()
         state = self._after_jump(self.state, frame, dt)
         air, outside = self._outside_forces(state, frame, dt)
         now = Circumstances(self.document.lcp, frame, outside)
@@ -124,6 +128,16 @@ class Simulation:
                 self._saved = _Snapshot(self.before, self.air)
         else:
             self._restore(frame, stepped.time)
+
+    def _follow_script(self) -> None:
+        """The part of a motion that the head does not do: in "split" two hands part the hair for a while."""
+        if self.document.motion.kind != "split":
+            return
+        holding = SPLIT_HOLD[0] <= self.state.time < SPLIT_HOLD[1]
+        if holding and self.parting is None:
+            self.hold_apart()
+        elif self.parting is not None and not holding:
+            self.release()
 
     def _outside_forces(self, state: HairState, frame: HeadFrame, dt: float) -> tuple[AirState, Floats | None]:
         """The air after the step, and forces of hands and air on hair [N], (n, 3), head frame."""
