@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from .bust import cut_bust, head_weight
 from .head import Head, HeadError, Landmarks, Part
 from .landmarks import find_landmarks, skull_base

@@ -17,6 +17,7 @@ from .profile import Profile, midline, seen_from
 
 _EYE_SPREAD = 0.138
 _MOUTH_SPREAD = 0.101
+_LOOK_AROUND = 0.03
 # How far back from the nasion to the hindmost point of the skull the ear hole lies.
 _TRAGUS_DEPTH = 0.454
 
@@ -30,7 +31,7 @@ def find_landmarks(skin: TriangleMesh, height: float, eyes: tuple[Floats, Floats
     profile = midline(skin)
     top = float(profile.level[-1])
     nose = _farthest(profile.between(top - 0.80 * height, top - 0.54 * height), (0.0, 1.0))
-    chin = _chin(profile, nose, height)
+    chin = _chin(profile, top, height)
     height = top - chin[1]
     nasion = _nasion(profile, nose, height)
     glabella = profile.front_at(nasion[1] + 0.05 * height)
@@ -41,12 +42,12 @@ def find_landmarks(skin: TriangleMesh, height: float, eyes: tuple[Floats, Floats
     nape = neck.back_at(float(neck.level[neck.back.argmax()]))
 
     if eyes is None:
-        eyes = _pair(skin, _EYE_SPREAD * height, nasion[1] - 0.008 * height)
-    mouth = _pair(skin, _MOUTH_SPREAD * height, _mouth_level(profile, nose, chin))
+        eyes = _pair(skin, _EYE_SPREAD * height, nasion[1] - 0.008 * height, height)
+    mouth = _pair(skin, _MOUTH_SPREAD * height, _mouth_level(profile, nose, chin), height)
     expected = [nose[1] + 0.045 * height, nasion[2] - _TRAGUS_DEPTH * (nasion[2] - occiput[2])]
     tragus = [find_tragus(skin, np.array([side * 0.3 * height, *expected]), height) for side in (1.0, -1.0)]
     return Landmarks(
-        crown=np.array([0.0, top, profile.front[-1]]),
+        crown=_crown(profile, height),
         hairline=hairline,
         glabella=glabella,
         nasion=nasion,
@@ -76,21 +77,25 @@ def _farthest(profile: Profile, direction: tuple[float, float]) -> Floats:
     return profile.front_at(float(profile.level[best]))
 
 
-def _chin(profile: Profile, nose: Floats, height: float) -> Floats:
-    """The lower corner of the chin: farthest down and forward, above the hollow of the throat."""
-    below = profile.between(nose[1] - 0.46 * height, nose[1] - 0.17 * height)
-    hollow = below.front.argmin()
-    reached = below.between(float(below.level[hollow]), float(below.level[-1]))
-    return _farthest(reached, (-0.8, 0.6))
+def _crown(profile: Profile, height: float) -> Floats:
+    """The top of the head, above the middle of its cap: many a skull is flat on top."""
+    top = float(profile.level[-1])
+    cap = top - 0.01 * height
+    middle = 0.5 * (profile.front_at(cap)[2] + profile.back_at(cap)[2])
+    return np.array([0.0, top, middle])
+
+
+def _chin(profile: Profile, top: float, height: float) -> Floats:
+    """The lower corner of the chin: farthest down and forward where the chin must be."""
+    return _farthest(profile.between(top - 1.06 * height, top - 0.90 * height), (-0.9, 0.44))
 
 
 def _nasion(profile: Profile, nose: Floats, height: float) -> Floats:
-    """The hollow between nose and forehead: deepest below the line that joins them."""
+    """The hollow between nose and forehead: deepest below a line that leans half as much as the one that joins them."""
     face = profile.between(nose[1] + 0.06 * height, nose[1] + 0.26 * height)
     forehead = profile.front_at(nose[1] + 0.30 * height)
-    rise = (face.level - nose[1]) / (forehead[1] - nose[1])
-    depth = nose[2] + rise * (forehead[2] - nose[2]) - face.front
-    return profile.front_at(float(face.level[depth.argmax()]))
+    lean = 0.5 * (forehead[2] - nose[2]) / (forehead[1] - nose[1])
+    return profile.front_at(float(face.level[(lean * face.level - face.front).argmax()]))
 
 
 def _mouth_level(profile: Profile, nose: Floats, chin: Floats) -> float:
@@ -104,7 +109,12 @@ def _mouth_level(profile: Profile, nose: Floats, chin: Floats) -> float:
     return float(lips.level[hollow]) if 0 < hollow < len(lips.level) - 1 else usual
 
 
-def _pair(skin: TriangleMesh, spread: float, level: float) -> tuple[Floats, Floats]:
-    """The points of the front at a level, to the left and right of the middle by ``spread``."""
-    depth = seen_from(skin, 2, 1.0, np.array([[spread, level], [-spread, level]]))
-    return np.array([spread, level, depth[0]]), np.array([-spread, level, depth[1]])
+def _pair(skin: TriangleMesh, spread: float, level: float, height: float) -> tuple[Floats, Floats]:
+    """The points of the front at a level, to the left and right of the middle by ``spread``.
+
+    The outermost of a few looks around each point, since lids and lips may stand open there.
+    """
+    around = _LOOK_AROUND * height * np.array([[0, 0], [0, 1], [0, -1], [1, 0], [-1, 0]])
+    points = np.array([[spread, level], [-spread, level]])
+    depth = seen_from(skin, 2, 1.0, (points[:, None] + around).reshape(-1, 2)).reshape(2, -1).max(axis=1)
+    return np.array([*points[0], depth[0]]), np.array([*points[1], depth[1]])

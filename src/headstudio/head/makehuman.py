@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from scipy import sparse
 
-from .bust import cut_bust, head_height, head_weight
+from .bust import cut_bust, head_weight
 from .eyes import eyeball
 from .head import Expression, Head, HeadError, Landmarks, Part
 from .makehuman_data import (
@@ -33,15 +33,14 @@ _LANDMARKS = {
     "nose_tip": 5054,
     "chin": 5296,
     "nape": 854,
-    "occiput": 962,
     "left_tragus": 12055,
     "right_tragus": 5456,
     "mouth_left": 10402,
     "mouth_right": 3734,
 }
 
-# The part of the body that is subdivided before the bust is cut from it, in heights of the head below the chin.
-_KEPT_BELOW_CHIN = 1.5
+# How far down the body is subdivided before the bust is cut from it [m].
+_KEPT_BELOW_SKULL = 0.4
 
 # Offsets below this [m] are dropped from the expressions.
 _SMALLEST_OFFSET = 1e-6
@@ -73,8 +72,10 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
     vertices = (shape - origin) * _DECIMETRE
 
     eyes = tuple(_eye(base, vertices, side) for side in ("l", "r"))
-    landmarks = _landmarks(vertices, eyes)
-    skin, carry = _bust(base, vertices, landmarks)
+    body, carry = _smooth_body(base, vertices)
+    landmarks = _landmarks(body, carry, eyes)
+    skin, cut = cut_bust(body, landmarks)
+    carry = cut @ carry
     parts = eyes + tuple(Part(kind, _smooth(base, vertices, group)) for group, kind in _PARTS)
     return Head(
         name="makehuman",
@@ -86,7 +87,7 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
         notes=(
             f"MakeHuman's CC0 human, age {age:g}, masculine {masculine:g}",
             f"{len(skin.vertices):,} vertices and {len(skin.faces):,} triangles after one Catmull-Clark step",
-            "body cut under the armpits and across the upper arms",
+            "body cut through the upper chest and the shoulders",
         ),
     )
 
@@ -103,15 +104,14 @@ def _shape(base: BaseMesh, folder: Path, age: float, masculine: float) -> Floats
     return vertices
 
 
-def _bust(base: BaseMesh, vertices: Floats, landmarks: Landmarks) -> tuple[TriangleMesh, sparse.csr_array]:
-    """The subdivided skin of the bust, and the matrix that makes it from all vertices of the base mesh."""
+def _smooth_body(base: BaseMesh, vertices: Floats) -> tuple[TriangleMesh, sparse.csr_array]:
+    """The upper body, subdivided once, and the matrix that makes it from all vertices of the base mesh."""
     body = base.quads("body", vertices)
-    near = vertices[:, 1] > landmarks.chin[1] - _KEPT_BELOW_CHIN * head_height(landmarks)
-    coarse, old = body.selected(near[body.faces].all(axis=1))
-    fine, subdivide = catmull_clark(coarse)
-    skin, cut = cut_bust(fine.triangulated(), landmarks)
-    select = sparse.csr_array((np.ones(len(old)), (np.arange(len(old)), old)), shape=(len(old), len(vertices)))
-    return skin, cut @ subdivide @ select
+    near = vertices[:, 1] > -_KEPT_BELOW_SKULL
+    coarse, used = body.selected(near[body.faces].all(axis=1))
+    select = sparse.csr_array((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), len(vertices)))
+    fine, carry = catmull_clark(coarse)
+    return fine.triangulated(), carry @ select
 
 
 def _smooth(base: BaseMesh, vertices: Floats, group: str) -> TriangleMesh:
@@ -129,10 +129,18 @@ def _eye(base: BaseMesh, vertices: Floats, side: str) -> Part:
     return eyeball(centre, axis / np.linalg.norm(axis), radius)
 
 
-def _landmarks(vertices: Floats, eyes: tuple[Part, ...]) -> Landmarks:
+def _landmarks(body: TriangleMesh, carry: sparse.csr_array, eyes: tuple[Part, ...]) -> Landmarks:
+    """The landmarks on the subdivided body, each where subdivision moves its vertex of the base mesh."""
+    moved_to = carry[: carry.shape[1]].argmax(axis=0)
     left, right = (eye.centre + eye.radius * eye.axis for eye in eyes)
+    named = {name: body.vertices[moved_to[index]] for name, index in _LANDMARKS.items()}
+    middle = body.vertices[np.abs(body.vertices[:, 0]) < 1e-6]
+    skull = middle[middle[:, 1] > named["nose_tip"][1]]
     return Landmarks(
-        left_eye=left, right_eye=right, **{name: vertices[index].copy() for name, index in _LANDMARKS.items()}
+        occiput=skull[skull[:, 2].argmin()],
+        left_eye=left,
+        right_eye=right,
+        **named,
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from .eyes import fit_sphere
 from .head import Part
-from .mesh import Floats, Ints, TriangleMesh
+from .mesh import Ints, TriangleMesh
 from .repair import face_components, without_loose_vertices
 
 # All lengths in heights of the head, crown to chin (some 21 cm), all areas in squares of it.
