@@ -12,7 +12,6 @@ import typer
 
 app = typer.Typer(
     name="headstudio",
-    help="Hair that is shaken live, on a head. Alone it opens the window.",
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -43,31 +42,55 @@ CANCELLED = 130
 FAILED = 2
 
 
-def command(function: Callable[..., None]) -> Callable[..., None]:
+def command(name: str | None = None) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Register a command. A foreseen error is one line and status 2; Ctrl-C is a word and status 130."""
 
-    @functools.wraps(function)
-    def run(*args: Any, **kwargs: Any) -> None:
-        from .commands.reporting import as_line, complain, foreseen
+    def register(function: Callable[..., None]) -> Callable[..., None]:
+        @functools.wraps(function)
+        def run(*args: Any, **kwargs: Any) -> None:
+            from .commands.reporting import as_line, complain, foreseen
 
-        try:
-            function(*args, **kwargs)
-        except KeyboardInterrupt:
-            complain("cancelled")
-            raise typer.Exit(CANCELLED) from None
-        except BrokenPipeError:
-            raise  # typer ends quietly when the reader of a pipe has seen enough
-        except Exception as error:
-            if not foreseen(error):
-                raise
-            complain(as_line(error))
-            raise typer.Exit(FAILED) from None
+            try:
+                function(*args, **kwargs)
+            except KeyboardInterrupt:
+                complain("cancelled")
+                raise typer.Exit(CANCELLED) from None
+            except BrokenPipeError:
+                raise  # typer ends quietly when the reader of a pipe has seen enough
+            except Exception as error:
+                if not foreseen(error):
+                    raise
+                complain(as_line(error))
+                raise typer.Exit(FAILED) from None
 
-    app.command()(run)
-    return run
+        app.command(name)(run)
+        return run
+
+    return register
 
 
-@command
+@app.callback(invoke_without_command=True)
+def alone(context: typer.Context) -> None:
+    """Hair that is shaken live, on a head. Without a command, the window opens."""
+    if context.invoked_subcommand is None:
+        open_window()
+
+
+@command("open")
+def open_window(project: Project = None) -> None:
+    """Open the window, on a project if one is named."""
+    from .app.main import main
+    from .app.window import WindowError
+    from .commands.reporting import complain
+
+    try:
+        main(str(project) if project else None)
+    except WindowError as error:
+        complain(str(error))
+        raise typer.Exit(FAILED) from None
+
+
+@command()
 def demo(
     out: Annotated[Path, typer.Option(help="The folder to fill.")] = Path("headstudio-demo"),
     quick: Annotated[bool, typer.Option("--quick", help="Small and short: a few seconds of work.")] = False,
@@ -82,7 +105,7 @@ def demo(
     demo(open_document(None, set_ or (), head_source=head_source(head), hair_seed=seed), out, quick)
 
 
-@command
+@command()
 def simulate(
     project: Project = None,
     motion: MotionOption = None,
@@ -109,7 +132,7 @@ def simulate(
     simulate(choose_view(document, view), movement, Shot(seconds, fps, parse_size(size), out, stats))
 
 
-@command
+@command()
 def render(
     project: Project = None,
     out: Annotated[Path, typer.Option(help="The picture, a PNG.")] = Path("picture.png"),
@@ -134,7 +157,7 @@ def render(
     typer.echo(out)
 
 
-@command
+@command()
 def compare(
     one: Annotated[Path, typer.Argument(metavar="A.png")],
     other: Annotated[Path, typer.Argument(metavar="B.png")],
@@ -147,7 +170,7 @@ def compare(
         raise typer.Exit(DIFFERENT)
 
 
-@command
+@command()
 def inspect(head: Annotated[str, typer.Argument(metavar="HEAD", help="makehuman, mannequin, or a mesh file.")]) -> None:
     """Say what a head holds: counts, holes, unit and axes, and what was repaired."""
     from .commands.inspect import inspect
@@ -155,7 +178,7 @@ def inspect(head: Annotated[str, typer.Argument(metavar="HEAD", help="makehuman,
     inspect(head)
 
 
-@command
+@command()
 def params(
     name: Annotated[str, typer.Argument(help="Only parameters with this in their name.")] = "",
     markdown: Annotated[bool, typer.Option("--markdown", help="Print the page of the documentation.")] = False,
@@ -169,7 +192,7 @@ def params(
         parameters.print_parameters(name)
 
 
-@command
+@command()
 def version() -> None:
     """Print the versions of headstudio and of what it computes and draws with."""
     from .commands.versions import versions

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..io.compare import compare_images, difference_picture, read_picture
 from .pictures import check_is_picture, save_picture
-from .reporting import results
+from .reporting import say
 
 
 def compare(one: Path, other: Path, difference: Path | None) -> bool:
@@ -20,5 +20,5 @@ def compare(one: Path, other: Path, difference: Path | None) -> bool:
     comparison = compare_images(a, b)
     if difference is not None:
         save_picture(difference_picture(a, b), difference)
-    results.out(str(comparison))
+    say(str(comparison))
     return comparison.passed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +13,10 @@ from ..params import assign
 from ..scene.document import Document
 from ..scene.motion import head_motion
 from ..scene.simulation import Simulation
-from ..scene.views import seen_from
-from .documents import build
+from ..scene.stage import Stage
+from .documents import build, choose_view
 from .pictures import Photographer, Pixels, save_picture
-from .reporting import counting, results
+from .reporting import counting, say
 from .simulate import Run, write_report
 
 FPS = 30.0
@@ -59,49 +59,57 @@ def demo(document: Document, out: Path, quick: bool) -> None:
     scale = QUICK if quick else FULL
     document = assign(document, {"hair.particles": scale.particles})
     photographer = Photographer((scale.size, scale.size))
+    built = build(document)
     out.mkdir(parents=True, exist_ok=True)
-    save_picture(views(document, photographer), out / "views.png")
-    save_picture(shadows(document, photographer), out / "shadows.png")
+    at_rest = Simulation(built, document).stage()
+    save_picture(views(at_rest, document, photographer), out / "views.png")
+    save_picture(shadows(at_rest, document, photographer), out / "shadows.png")
     for scene in SCENES:
-        save_picture(film(scene, document, photographer, scale.length, out), out / f"{scene.name}.png")
-    results.out(f"the demo's pictures, films and figures are in {out.resolve()}:")
+        run = Run(directed(scene, document), built)
+        save_picture(
+            film(run, photographer, round(scene.seconds * scale.length * FPS), out / scene.name),
+            out / f"{scene.name}.png",
+        )
+    say(f"the demo's pictures, films and figures are in {out.resolve()}:")
     for path in sorted(out.iterdir()):
-        results.out(f"  {path.name}")
+        say(f"  {path.name}")
 
 
-def views(document: Document, photographer: Photographer) -> Pixels:
-    """The head from all sides, hair as it has grown."""
-    stage = Simulation(build(document), document).stage()
+def views(stage: Stage, document: Document, photographer: Photographer) -> Pixels:
+    """The head from all sides."""
     names = ("front", "three-quarter", "left", "back")
-    looks = [replace(document, camera=seen_from(document.camera, name)) for name in names]
+    looks = [choose_view(document, name) for name in names]
     return contact_sheet([photographer.picture(stage, look) for look in looks], names)
 
 
-def shadows(document: Document, photographer: Photographer) -> Pixels:
+def shadows(stage: Stage, document: Document, photographer: Photographer) -> Pixels:
     """The same head with and without shadows."""
-    stage = Simulation(build(document), document).stage()
-    document = replace(document, camera=seen_from(document.camera, "three-quarter"))
-    looks = [assign(document, {"look.shadows": shadows}) for shadows in (True, False)]
+    document = choose_view(document, "three-quarter")
+    looks = [assign(document, {"look.shadows": on}) for on in (True, False)]
     return contact_sheet([photographer.picture(stage, look) for look in looks], ("shadows", "no shadows"))
 
 
-def film(scene: Scene, document: Document, photographer: Photographer, length: float, out: Path) -> Pixels:
-    """Film a scene and write its figures; returns a sheet of its moments."""
-    document = assign(document, {"motion.kind": scene.name})
-    document = replace(document, camera=seen_from(document.camera, scene.view))
-    run = Run(document, head_motion(document.motion), build(document), photographer)
-    count = round(scene.seconds * length * FPS)
+def directed(scene: Scene, document: Document) -> Document:
+    """The document as a scene wants it moved and seen."""
+    return choose_view(assign(document, {"motion.kind": scene.name}), scene.view)
+
+
+def film(run: Run, photographer: Photographer, count: int, path: Path) -> Pixels:
+    """Write ``count`` frames as PATH.mp4 and their figures as PATH.json; returns a sheet of moments."""
     chosen = set(np.linspace(0, count - 1, PICTURES_ON_A_SHEET).round().astype(int))
     moments: list[Pixels] = []
     captions: list[str] = []
-    path = out / f"{scene.name}.mp4"
-    with open_film(path, FPS, photographer.size) as reel, counting(scene.name, count) as progress:
-        for number, stage in enumerate(run.play(count, FPS)):
-            picture = photographer.picture(stage, document)
+    with (
+        open_film(path.with_suffix(".mp4"), FPS, photographer.size) as reel,
+        counting(path.name, count) as progress,
+    ):
+        for number, stage in enumerate(run.play(head_motion(run.document.motion), count, FPS)):
+            picture = photographer.picture(stage, run.document)
             reel.add(picture)
+            run.frames[-1] |= photographer.cost
             if number in chosen:
                 moments.append(picture)
-                captions.append(f"{scene.name}, {(number + 1) / FPS:.2f} s")
+                captions.append(f"{path.name}, {(number + 1) / FPS:.2f} s")
             progress.advance(progress.task_ids[0])
-    write_report(run.report(), out / f"{scene.name}.json")
+    write_report(run.report(photographer.device), path.with_suffix(".json"))
     return contact_sheet(moments, captions)

@@ -15,7 +15,7 @@ from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
 from ..scene.project import Project, load_project, new_project
 from ..scene.views import seen_from
-from .reporting import asides, warn
+from .reporting import warn, working
 
 
 def open_document(project: Path | None, assignments: Sequence[str], **chosen: Any) -> Document:
@@ -56,9 +56,7 @@ def choose_view(document: Document, view: str | None) -> Document:
     return document if view is None else replace(document, camera=seen_from(document.camera, view))
 
 
-def build(document: Document) -> Built:
-    """Build ``document`` and show on a terminal what is being built. Raises HeadError."""
-    if not asides.is_terminal:
-        return Builder().build(document)
-    with asides.status("building") as status:
-        return Builder(lambda part: status.update(f"building the {part}")).build(document)
+def build(document: Document, builder: Builder | None = None) -> Built:
+    """Build ``document``, with a builder that may have some of it ready. Raises HeadError."""
+    with working("growing the hair"):
+        return (builder or Builder()).build(document)

@@ -9,7 +9,7 @@ from ..head.scalp import grow_scalp
 from ..params import assign
 from ..scene.builder import Builder
 from ..scene.document import Document
-from .reporting import results, working
+from .reporting import say, working
 
 
 def inspect(source: str) -> None:
@@ -18,11 +18,11 @@ def inspect(source: str) -> None:
     with working("reading the head"):
         head = Builder().head(document.head)
     for line in describe(head):
-        results.out(line)
+        say(line)
     with working("growing the scalp"):
         scalp = grow_scalp(head, document.scalp)
     for line in scalp.notes:
-        results.out(line)
+        say(line)
 
 
 def describe(head: Head) -> list[str]:

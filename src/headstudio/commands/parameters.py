@@ -12,7 +12,7 @@ from rich.table import Table
 
 from ..params import Parameter, ParameterError, walk
 from ..scene.document import Document
-from .reporting import results
+from .reporting import results, say
 
 INTRODUCTION = """\
 # Parameters
@@ -49,7 +49,7 @@ def print_parameters(part_of_name: str = "") -> None:
     rows = parameter_rows(part_of_name)
     if not results.is_terminal:
         for row in rows:
-            results.out(*astuple(row), sep="\t")
+            say("\t".join(astuple(row)))
         return
     table = Table("Parameter", "Default", "Range", "Unit", "", "What it is", header_style="bold")
     for row in rows:

@@ -32,11 +32,17 @@ class Photographer:
     def __init__(self, size: Size) -> None:
         self.size = size
         self.renderer = Renderer(headless_context())
+        self.renderer.timer.on = True
 
     @property
     def device(self) -> str:
         """What draws: the graphics card, or llvmpipe."""
         return str(self.renderer.context.info["GL_RENDERER"])
+
+    @property
+    def cost(self) -> dict[str, float]:
+        """What the stages of the last picture took, by name [ms]: "ms_light" and so on."""
+        return self.renderer.timer.stages
 
     def picture(self, stage: Stage, document: Document) -> Pixels:
         """The stage as pixels, top row first, (height, width, 3)."""
@@ -62,7 +68,7 @@ def render(document: Document, motion: Motion, seconds: float, size: Size, out: 
         for _ in range(steps):
             simulation.advance(motion, seconds / steps)
             progress.advance(progress.task_ids[0])
-    save_picture(photographer.picture(simulation.stage(motion(seconds)), document), out)
+    save_picture(photographer.picture(simulation.stage(), document), out)
 
 
 def check_is_picture(path: Path) -> None:

@@ -20,7 +20,7 @@ from ..scene.simulation import Simulation
 from ..scene.stage import Stage
 from .documents import build
 from .pictures import Photographer, Size
-from .reporting import counting, results, warn
+from .reporting import counting, say, warn
 from .versions import versions
 
 Figures = dict[str, float | None]
@@ -61,6 +61,7 @@ class Run:
             elapsed = time.perf_counter() - start
             for note in self.simulation.notes:
                 warn(note)
+            self.simulation.notes.clear()
             self.frames.append(self._figures(elapsed))
             yield self.simulation.stage()
 
@@ -94,11 +95,12 @@ def simulate(document: Document, motion: Motion, shot: Shot) -> None:
         for stage in run.play(motion, shot.frames, shot.fps):
             if film is not None and photographer is not None:
                 film.add(photographer.picture(stage, document))
+                run.frames[-1] |= photographer.cost
             progress.advance(progress.task_ids[0])
     if shot.stats is not None:
         write_report(run.report(photographer.device if photographer else None), shot.stats)
     for line in summary(run, shot):
-        results.out(line)
+        say(line)
 
 
 def write_report(report: dict[str, Any], path: Path) -> None:
