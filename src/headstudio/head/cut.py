@@ -89,27 +89,32 @@ def _patch_on_the_left(
 
 def _faces_left_of(faces: Ints, loop: Ints, vertex_count: int) -> Ints:
     """Indices of the faces that one reaches from the left of the loop without crossing it."""
-    start, end = faces.reshape(-1), np.roll(faces, -1, axis=1).reshape(-1)
+    ahead = np.roll(loop, -1)
+    to, fro = loop * vertex_count + ahead, ahead * vertex_count + loop
+    edges = (faces * vertex_count + np.roll(faces, -1, axis=1)).reshape(-1)
     owner = np.repeat(np.arange(len(faces)), 3)
-    to, fro = loop * vertex_count + np.roll(loop, -1), np.roll(loop, -1) * vertex_count + loop
-    edge = start * vertex_count + end
-    is_wall = np.isin(edge, np.concatenate([to, fro]))
+    left, right = owner[np.isin(edges, to)], owner[np.isin(edges, fro)]
 
-    undirected = np.minimum(start, end) * vertex_count + np.maximum(start, end)
-    order = np.flatnonzero(~is_wall)[np.argsort(undirected[~is_wall], kind="stable")]
-    shared = np.flatnonzero(np.diff(undirected[order]) == 0)
+    open_edges = _undirected(faces, vertex_count)
+    passable = np.flatnonzero(~np.isin(open_edges, np.minimum(to, fro)))
+    order = passable[np.argsort(open_edges[passable], kind="stable")]
+    shared = np.flatnonzero(np.diff(open_edges[order]) == 0)
     pairs = owner[order[shared]], owner[order[shared + 1]]
     links = coo_array((np.ones(len(shared), dtype=bool), pairs), shape=(len(faces), len(faces)))
     _, piece = connected_components(links, directed=False)
-    left, right = piece[owner[np.isin(edge, to)]], piece[owner[np.isin(edge, fro)]]
-    if np.intersect1d(left, right).size:
+    if np.intersect1d(piece[left], piece[right]).size:
         raise HeadError("the curves around the scalp do not separate it from the rest of the skin")
-    return np.flatnonzero(np.isin(piece, left))
+    return np.flatnonzero(np.isin(piece, piece[left]))
 
 
 def _is_disc(mesh: TriangleMesh, border_count: int) -> bool:
     pieces, _ = igl.facet_components(mesh.faces)
-    edges = np.sort(np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    unique, times = np.unique(edges, axis=0, return_counts=True)
-    euler = len(mesh.vertices) - len(unique) + len(mesh.faces)
+    edges, times = np.unique(_undirected(mesh.faces, len(mesh.vertices)), return_counts=True)
+    euler = len(mesh.vertices) - len(edges) + len(mesh.faces)
     return bool(pieces == 1 and euler == 1 and times.max() <= 2 and (times == 1).sum() == border_count)
+
+
+def _undirected(faces: Ints, vertex_count: int) -> Ints:
+    """One number for every side of every triangle, the same for both triangles at an edge, (3 m,)."""
+    other = np.roll(faces, -1, axis=1)
+    return (np.minimum(faces, other) * vertex_count + np.maximum(faces, other)).reshape(-1)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .head import Head, HeadError
-from .locate import Locator
+from .locate import Locator, locator
 from .mesh import Floats
 
 # From the middle of the forehead to the sideburn: azimuth [deg], height as a part of the hairline's in the middle. The
@@ -20,7 +20,8 @@ from .mesh import Floats
 _FOREHEAD = ((14, 1.02), (29, 1.01), (40, 0.91), (47, 0.72), (53, 0.52), (63, 0.32), (73, 0.14))
 _SIDEBURN_TIP = (81, -0.04)
 # Heights below are parts of the height from tragus to crown; an adult's is about 130 mm, which the angles go with.
-_TYPICAL_EAR = (0.24, 113.0)
+_TYPICAL_EAR = (0.24, 112.0)
+_EAR_TOPS, _EAR_BACKS = (0.1, 0.5), (98.0, 132.0)
 _CLEARANCE, _CLEARANCE_DEGREES = 0.05, 3.0
 _NAPE_CORNER_AZIMUTH = 127.0
 # What stands out from its surroundings by this much, seen from outside, belongs to the ear.
@@ -63,7 +64,7 @@ class _Surroundings:
         if not (unit > 0 and marks.hairline[1] > middle[1] > marks.nape[1]):
             raise HeadError("the landmarks do not lie as on a head: crown and hairline above the ears, the nape below")
         reach = max(np.linalg.norm((mark - middle)[[0, 2]]) for mark in (marks.nose_tip, marks.occiput))
-        return cls(Locator(head.skin.vertices, head.skin.faces), middle, 1.3 * float(reach), unit)
+        return cls(locator(head.skin), middle, 1.3 * float(reach), unit)
 
     def place(self, azimuth: ArrayLike, height: ArrayLike) -> Floats:
         """The skin [m], (k, 3), at azimuths [deg], positive to the person's left, and heights [m] over the tragus.
@@ -77,8 +78,8 @@ class _Surroundings:
         return nearest.blend(self.skin.vertices, self.skin.faces)
 
     def ear(self, side: int) -> tuple[float, float]:
-        """Height [m] of the top of an ear and azimuth [deg] of its back; typical ones when none stands out."""
-        azimuth, height = np.arange(70.0, 142.0, 1.5), np.arange(-0.15, 0.6, 0.02) * self.unit
+        """Height [m] of the top of an ear and azimuth [deg] of its back; typical ones when no ear stands out."""
+        azimuth, height = np.arange(75.0, 135.0, 1.5), np.arange(-0.15, 0.55, 0.02) * self.unit
         grid_azimuth, grid_height = np.meshgrid(azimuth, height)
         outward, start = self._rays(side * grid_azimuth.ravel(), grid_height.ravel())
         depth = self.skin.first_hit(start, -outward).reshape(grid_azimuth.shape)
@@ -86,9 +87,10 @@ class _Surroundings:
         step = np.zeros(depth.shape, dtype=bool)
         step[1:] |= np.abs(np.diff(depth, axis=0)) > _EAR_STEP * self.unit
         step[:, 1:] |= np.abs(np.diff(depth, axis=1)) > _EAR_STEP * self.unit
-        if not step.any():
-            return _TYPICAL_EAR[0] * self.unit, _TYPICAL_EAR[1]
-        return float(height[step.any(axis=1)].max()), float(azimuth[step.any(axis=0)].max())
+        top = height[step.any(axis=1)].max(initial=-np.inf)
+        back = azimuth[step.any(axis=0)].max(initial=-np.inf)
+        is_an_ear = _EAR_TOPS[0] < top / self.unit < _EAR_TOPS[1] and _EAR_BACKS[0] < back < _EAR_BACKS[1]
+        return (float(top), float(back)) if is_an_ear else (_TYPICAL_EAR[0] * self.unit, _TYPICAL_EAR[1])
 
     def _rays(self, azimuth: ArrayLike, height: ArrayLike) -> tuple[Floats, Floats]:
         angle, up = np.radians(azimuth), np.asarray(height, dtype=np.float64)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import igl
 import numpy as np
 
-from .mesh import Floats, Ints
+from .mesh import Floats, Ints, TriangleMesh
 
 # igl takes a ray for parallel to a triangle when a determinant, an area in the units of the mesh, is below 1e-6: in
 # metres that is every triangle of a fine head. So rays are cast in millimetres.
@@ -35,7 +35,7 @@ class Locator:
     """
 
     def __init__(self, vertices: Floats, faces: Ints) -> None:
-        """vertices: (n, 3) or (n, 2). faces: (m, 3)."""
+        """vertices: (n, 3) or (n, 2). faces: (m, 3). See ``locator`` for a mesh that is asked again and again."""
         self.vertices = _in_space(vertices)
         self.faces = np.ascontiguousarray(faces, dtype=np.int64)
         self._tree = igl.AABB()
@@ -63,6 +63,12 @@ class Locator:
         tree = igl.AABB()
         tree.init(vertices, self.faces)
         return tree, vertices
+
+
+@lru_cache(maxsize=4)
+def locator(mesh: TriangleMesh) -> Locator:
+    """The locator of a mesh; that of the last few meshes is kept, so that dragging a curve on a head stays quick."""
+    return Locator(mesh.vertices, mesh.faces)
 
 
 def barycentric(points: Floats, triangles: Floats) -> Floats:

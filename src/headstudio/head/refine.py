@@ -27,21 +27,22 @@ def refine_near(surface: ShadedMesh, curve: Floats, longest: float) -> ShadedMes
     tree = cKDTree(curve)
     vertices, faces, normals = surface.mesh.vertices, surface.mesh.faces, surface.normals
     while True:
-        sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2)
-        edges, index = np.unique(np.sort(sides.reshape(-1, 2), axis=1), axis=0, return_inverse=True)
-        start, end = vertices[edges[:, 0]], vertices[edges[:, 1]]
-        length = np.linalg.norm(end - start, axis=1)
+        ends = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2), axis=2)
+        start, end = vertices[ends[..., 0]], vertices[ends[..., 1]]
+        length = np.linalg.norm(end - start, axis=2)
+        split = length > longest
         # The whole edge lies within half its length of its middle.
-        split = np.flatnonzero(length > longest)
-        split = split[tree.query((start + end)[split] / 2)[0] <= longest + length[split] / 2]
-        if len(split) == 0:
-            return ShadedMesh(TriangleMesh(vertices, faces), normals)
-        middle = np.full(len(edges), -1)
-        middle[split] = len(vertices) + np.arange(len(split))
-        blended = normals[edges[split]].sum(axis=1)
-        vertices = np.concatenate([vertices, (start + end)[split] / 2])
+        split[split] = tree.query((start + end)[split] / 2)[0] <= longest + length[split] / 2
+        if not split.any():
+            return surface if faces is surface.mesh.faces else ShadedMesh(TriangleMesh(vertices, faces), normals)
+        edges, index = np.unique(ends[split] @ [len(vertices), 1], return_inverse=True)
+        edges = np.stack(np.divmod(edges, len(vertices)), axis=1)
+        middle = np.full(faces.shape, -1)
+        middle[split] = len(vertices) + index
+        vertices = np.concatenate([vertices, vertices[edges].mean(axis=1)])
+        blended = normals[edges].sum(axis=1)
         normals = np.concatenate([normals, blended / np.linalg.norm(blended, axis=1, keepdims=True)])
-        faces = _split_faces(faces, middle[index.reshape(-1, 3)])
+        faces = _split_faces(faces, middle)
 
 
 def _split_faces(faces: Ints, middle: Ints) -> Ints:

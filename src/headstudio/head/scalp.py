@@ -16,7 +16,7 @@ from .cut import cut_patch
 from .hairline import default_curves
 from .harmonic import map_to_square
 from .head import Head
-from .locate import Locator
+from .locate import Locator, locator
 from .mesh import Floats, TriangleMesh
 from .refine import ShadedMesh, refine_near
 from .scalp_curves import sample_curves
@@ -101,10 +101,9 @@ def grow_scalp(head: Head, settings: ScalpSettings) -> Scalp:
     Raises HeadError when the curves cannot be used: off the skin, not joined, crossing, or not around one piece of it.
     """
     given = tuple(np.array(points, dtype=np.float64) for points in settings.curves)
-    samples = sample_curves(given or default_curves(head), Locator(head.skin.vertices, head.skin.faces))
+    samples = sample_curves(given or default_curves(head), locator(head.skin))
     skin = refine_near(ShadedMesh(head.skin, head.skin.vertex_normals), np.concatenate(samples), _LARGEST_CUT_TRIANGLE)
-    on_skin = Locator(skin.mesh.vertices, skin.mesh.faces)
-    patch = cut_patch(skin, [on_skin.nearest(sample)[0] for sample in samples])
+    patch = cut_patch(skin, [locator(skin.mesh).nearest(sample)[0] for sample in samples])
     uv, method = map_to_square(patch)
     mesh = patch.disc.mesh
     return Scalp(
