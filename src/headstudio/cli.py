@@ -79,7 +79,7 @@ def alone(context: typer.Context) -> None:
 @command("open")
 def open_window(project: Project = None) -> None:
     """Open the window, on a project if one is named."""
-    from .app.main import main
+    from .app import main
     from .app.window import WindowError
     from .commands.reporting import complain
 

@@ -100,7 +100,7 @@ def test_what_a_project_holds_that_nobody_knows_is_a_warning(headstudio):
 
 def test_alone_it_opens_the_window(headstudio, monkeypatch):
     opened = []
-    monkeypatch.setattr("headstudio.app.main.main", opened.append)
+    monkeypatch.setattr("headstudio.app.main", opened.append)
     assert headstudio().status == 0
     assert headstudio("open", "hair.headstudio").status == 0
     assert opened == [None, "hair.headstudio"]
