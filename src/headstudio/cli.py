@@ -179,6 +179,21 @@ def inspect(head: Annotated[str, typer.Argument(metavar="HEAD", help="makehuman,
 
 
 @command()
+def bench(
+    json: Annotated[Path | None, typer.Option("--json", help="Write all figures to this JSON file.")] = None,
+    counts: Annotated[str, typer.Option(help="Counts of particles, with commas between.")] = "500,2000,5000",
+    frames: Annotated[int, typer.Option(min=1, max=1000, help="How many frames are measured for each.")] = 30,
+    head: HeadOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Measure what each stage of the animation costs here, beside the paper and a k-d tree."""
+    from .commands.bench import bench
+    from .commands.documents import head_source, open_document, parse_counts
+
+    bench(open_document(None, set_ or (), head_source=head_source(head)), parse_counts(counts), frames, json)
+
+
+@command()
 def params(
     name: Annotated[str, typer.Argument(help="Only parameters with this in their name.")] = "",
     markdown: Annotated[bool, typer.Option("--markdown", help="Print the page of the documentation.")] = False,

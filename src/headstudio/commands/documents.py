@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..io.take_csv import read_take
-from ..params import assign, parse_assignments
+from ..params import ParameterError, assign, parse_assignments
 from ..scene.builder import Builder, Built
 from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
@@ -40,6 +40,14 @@ def open_document(project: Path | None, assignments: Sequence[str], **chosen: An
 def head_source(word: str | None) -> str | None:
     """A head named on the command line; a file by its full path, so that a project still finds it from elsewhere."""
     return os.path.abspath(word) if word is not None and os.path.isfile(word) else word
+
+
+def parse_counts(words: str) -> tuple[int, ...]:
+    """``500,2000`` as numbers. Raises ParameterError."""
+    try:
+        return tuple(int(word) for word in words.split(","))
+    except ValueError:
+        raise ParameterError(f"counts are whole numbers with commas between, 500,2000; got {words!r}") from None
 
 
 def choose_motion(document: Document, word: str | None) -> tuple[Document, Motion]:

@@ -1,0 +1,1 @@
+"""What things cost: every stage of the animation, beside yardsticks that a reader can repeat."""

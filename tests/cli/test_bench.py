@@ -1,0 +1,40 @@
+"""The bench: small, for what it says rather than for how fast this machine is."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from headstudio.bench.neighbours import neighbour_cost
+
+
+def test_it_prints_a_column_for_each_count_and_writes_all_figures(headstudio, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
+    ran = headstudio("bench", "--counts", "100,150", "--frames", 2, "--json", "bench.json", "--head", "mannequin")
+    assert ran.status == 0
+    for word in ("neighbours, ms", "solve, ms", "picture: light, ms", "frames a second", "6.7", "33 %", "cKDTree"):
+        assert word in ran.output
+    report = json.loads(Path("bench.json").read_text())
+    assert set(report) == {"versions", "renderer", "cores", "paper", "animations"}
+    assert [cost["particles"] for cost in report["animations"]] == pytest.approx([100, 150], rel=0.02)
+    for cost in report["animations"]:
+        assert cost["frames"] == 2
+        assert cost["frame_ms"] == pytest.approx(cost["simulation_ms"] + cost["picture_ms"], rel=0.5)
+        assert cost["fps"] == pytest.approx(1000 / cost["frame_ms"])
+        assert cost["neighbours"]["steps"] > 0
+        assert min(cost["stages"].values()) >= 0
+
+
+def test_it_counts_the_pairs_that_the_tree_finds():
+    positions = np.random.default_rng(1).random((400, 3))
+    cost = neighbour_cost(positions, 0.1, step_ms=0.1, searches=1, steps=10)
+    assert cost.pairs == len(cKDTree(positions).query_pairs(0.1))
+    assert cost.part_of_kdtree == pytest.approx(0.1 / cost.kdtree_ms)
+
+
+def test_counts_that_are_no_numbers_are_one_line(headstudio):
+    ran = headstudio("bench", "--counts", "many")
+    assert ran.status == 2
+    assert "whole numbers" in ran.complaint
