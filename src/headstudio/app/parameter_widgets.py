@@ -220,6 +220,9 @@ class _Bare:
     def __enter__(self) -> None:
         for slot in self._SLOTS:
             imgui.push_style_color(slot.value, theme.rgba(theme.RAISED, 0.0))
+        # With a wide grab the mouse would not be where the bar ends.
+        imgui.push_style_var(imgui.StyleVar_.grab_min_size.value, 1.0)
 
     def __exit__(self, *_: object) -> None:
+        imgui.pop_style_var()
         imgui.pop_style_color(len(self._SLOTS))

@@ -9,7 +9,7 @@ import numpy as np
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from ..scene.live_drag import LiveDrag
-from ..scene.motion import frame_from_angles, head_motion
+from ..scene.motion import combined, frame_from_angles, head_motion
 from ..scene.settings import MotionSettings
 
 # How fast [1/s] the head finds its way from one motion into the next.
@@ -47,7 +47,7 @@ class Performance:
 
     def __call__(self, time: float) -> HeadFrame:
         """The head at ``time`` [s]."""
-        return carried(self.hand(time), frame_from_angles(*self._angles(time)))
+        return combined(self.hand(time), frame_from_angles(*self._angles(time)))
 
     def _angles(self, time: float) -> tuple[Floats, Floats, Floats]:
         """Pitch, yaw, roll [rad] with two derivatives: the motion, and what remains of the one before.
@@ -63,21 +63,3 @@ class Performance:
             frame.angular_velocity + (self._slope - rate * left) * fade,
             frame.angular_acceleration + (rate**2 * left - 2 * rate * self._slope) * fade,
         )
-
-
-def carried(outer: HeadFrame, inner: HeadFrame) -> HeadFrame:
-    """The frame of a head that moves as ``inner`` inside a frame that moves as ``outer``: turns chain, places add.
-
-    The places add because the bust, not the head, is what is moved about.
-    """
-    turned_velocity = outer.rotation.apply(inner.angular_velocity)
-    return HeadFrame(
-        rotation=outer.rotation * inner.rotation,
-        translation=outer.translation + inner.translation,
-        velocity=outer.velocity + inner.velocity,
-        acceleration=outer.acceleration + inner.acceleration,
-        angular_velocity=outer.angular_velocity + turned_velocity,
-        angular_acceleration=outer.angular_acceleration
-        + outer.rotation.apply(inner.angular_acceleration)
-        + np.cross(outer.angular_velocity, turned_velocity),
-    )

@@ -136,7 +136,8 @@ class Studio:
             self.performance.follow(document.motion, simulation.time)
             simulation.advance(self.performance, seconds)
             for note in simulation.notes:
-                self.messages.say(note, "warning")
+                self.messages.say(f"{note[:1].upper()}{note[1:]}.", "warning")
+            simulation.notes.clear()
             self.stage = None
         if self.stage is None:
             self.stage = simulation.stage()
