@@ -94,7 +94,7 @@ def animation_cost(
     for _ in range(frames):
         costs.append(animate())
         stages.append(dict(simulation.timings))
-    steps = neighbours.questions - questions
+    steps, searches = neighbours.questions - questions, neighbours.searches - searches
     listed = sum(stage.get("neighbours", 0.0) for stage in stages)
     simulation_ms, picture_ms = (median(cost) for cost in zip(*costs, strict=True))
     return AnimationCost(
@@ -109,7 +109,7 @@ def animation_cost(
             simulation.state.positions,
             neighbours.radius,
             listed / max(steps, 1),
-            neighbours.searches - searches,
+            searches,
             steps,
         ),
     )

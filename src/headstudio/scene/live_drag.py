@@ -9,7 +9,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
-from .motion import Motion, combined, frame_from_angles
+from .motion import frame_from_angles
 
 
 @dataclass(frozen=True)
@@ -66,10 +66,6 @@ class LiveDrag:
         """The head at ``time`` [s]; before the last ``aim`` it is where it was then."""
         place, velocity, acceleration = self._at(time)
         return frame_from_angles(place[:3], velocity[:3], acceleration[:3], place[3:], velocity[3:], acceleration[3:])
-
-    def over(self, motion: Motion) -> Motion:
-        """This drag on top of ``motion``: the hand turns a head that moves by itself as well."""
-        return lambda time: combined(self(time), motion(time))
 
     def _at(self, time: float) -> tuple[Floats, Floats, Floats]:
         """Place, velocity and acceleration of y'' + 2 k y' + k^2 y = 0, y being the way from the goal."""

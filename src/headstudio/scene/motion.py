@@ -22,10 +22,6 @@ Curve = Callable[[float], tuple[float, float, float]]
 
 PITCH, YAW, ROLL = range(3)
 
-# What a head can do at most; faster is a jump from one place to another, which hair is not dragged along.
-TOP_SPEED = 15.0
-TOP_ANGULAR_SPEED = 70.0
-
 
 def head_motion(settings: MotionSettings) -> Motion:
     """The motion that ``settings`` name, as a function of the time since its start [s].
@@ -151,14 +147,3 @@ def combined(outer: HeadFrame, inner: HeadFrame) -> HeadFrame:
         angular_velocity=outer.angular_velocity + turned[0],
         angular_acceleration=outer.angular_acceleration + np.cross(outer.angular_velocity, turned[0]) + turned[1],
     )
-
-
-def is_teleport(before: HeadFrame, after: HeadFrame, seconds: float) -> bool:
-    """Whether no head moves that far in ``seconds``: hair is then carried along instead of being torn.
-
-    To be asked for the internal steps of a solver. A few millimetres and degrees are free, so that a step of no
-    length is no jump.
-    """
-    distance = float(np.linalg.norm(after.translation - before.translation))
-    angle = float((after.rotation * before.rotation.inv()).magnitude())
-    return distance > 0.02 + TOP_SPEED * seconds or angle > 0.1 + TOP_ANGULAR_SPEED * seconds
