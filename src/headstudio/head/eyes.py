@@ -15,6 +15,13 @@ def eyeball(centre: Floats, axis: Floats, radius: float) -> Part:
     return Part("eye", TriangleMesh(ball.vertices + centre, ball.faces), centre, axis, radius)
 
 
+def pupil(eye: Part) -> Floats:
+    """Where the axis of an eye leaves its ball [m], shape (3,). Raises ValueError for a part that is no eye."""
+    if eye.centre is None or eye.axis is None:
+        raise ValueError(f"a part of kind {eye.kind!r} has no pupil")
+    return eye.centre + eye.radius * eye.axis
+
+
 def fit_sphere(points: Floats) -> tuple[Floats, float]:
     """The sphere nearest to ``points``, shape (n, 3), by linear least squares: centre, shape (3,), and radius."""
     middle = points.mean(axis=0)

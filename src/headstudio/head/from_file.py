@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from .bust import cut_bust, head_weight
+from .eyes import pupil
 from .head import Head, HeadError, Landmarks, Part
 from .landmarks import find_landmarks, skull_base
 from .mesh import Floats, TriangleMesh
@@ -81,12 +82,10 @@ def _find_head(pieces: list[TriangleMesh], name: str) -> tuple[TriangleMesh, lis
         stance, k = min(known, key=lambda pair: pair[0].misfit)
         return pieces[k], pieces[:k] + pieces[k + 1 :], stance
     together = joined(pieces)
-    stance = _stance(together) if len(pieces) > 1 else None
-    if stance is None:
-        raise HeadError(
-            f"{name} does not look like a human head from any side: give a closed or open surface with face and skull"
-        )
-    return together, [], stance
+    whole = _stance(together) if len(pieces) > 1 else None
+    if whole is None:
+        raise HeadError(f"{name} does not look like a human head from any side: give a surface with face and skull")
+    return together, [], whole
 
 
 def _stance(piece: TriangleMesh) -> Stance | None:
@@ -98,8 +97,7 @@ def _pupils(parts: list[Part]) -> tuple[Floats, Floats] | None:
     eyes = [part for part in parts if part.kind == "eye"]
     if len(eyes) != 2:
         return None
-    left, right = (eye.centre + eye.radius * eye.axis for eye in eyes)
-    return left, right
+    return pupil(eyes[0]), pupil(eyes[1])
 
 
 def _moved(part: Part, shift: Floats) -> Part:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from .from_file import head_from_file
 from .head import Head
 from .makehuman import makehuman
+from .mannequin import mannequin
 
 
 def load_head(source: str, *, age: float = 0.2, masculine: float = 0.0) -> Head:
@@ -15,9 +17,5 @@ def load_head(source: str, *, age: float = 0.2, masculine: float = 0.0) -> Head:
     if source == "makehuman":
         return makehuman(age, masculine)
     if source == "mannequin":
-        from .mannequin import mannequin
-
         return mannequin()
-    from .from_file import head_from_file
-
     return head_from_file(source)

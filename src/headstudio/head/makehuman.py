@@ -8,8 +8,9 @@ import numpy as np
 from scipy import sparse
 
 from .bust import cut_bust, head_weight
-from .eyes import eyeball
+from .eyes import eyeball, pupil
 from .head import Expression, Head, HeadError, Landmarks, Part
+from .lashes import lash_hairs
 from .makehuman_data import (
     ETHNIC_TARGETS,
     BaseMesh,
@@ -20,7 +21,7 @@ from .makehuman_data import (
     read_base_mesh,
 )
 from .mesh import Floats, TriangleMesh
-from .subdivision import catmull_clark
+from .subdivision import QuadMesh, catmull_clark
 
 _DECIMETRE = 0.1
 
@@ -42,18 +43,17 @@ _LANDMARKS = {
 # How far down the body is subdivided before the bust is cut from it [m].
 _KEPT_BELOW_SKULL = 0.4
 
+# Subdivision rounds the lips off and opens them by a millimetre: the jaw closes that much, in units of "mouth-open".
+_LIPS_TOGETHER = -0.08
+
+# It also draws the lids a little inward, and the eyeballs follow.
+_EYE_SHRINK = 0.98
+
 # Offsets below this [m] are dropped from the expressions.
 _SMALLEST_OFFSET = 1e-6
 
-_PARTS = (
-    ("helper-upper-teeth", "teeth"),
-    ("helper-lower-teeth", "teeth"),
-    ("helper-tongue", "tongue"),
-    ("helper-l-eyelashes-1", "lashes"),
-    ("helper-l-eyelashes-2", "lashes"),
-    ("helper-r-eyelashes-1", "lashes"),
-    ("helper-r-eyelashes-2", "lashes"),
-)
+_MOUTH = (("helper-upper-teeth", "teeth"), ("helper-lower-teeth", "teeth"), ("helper-tongue", "tongue"))
+_LASHES = ("eyelashes-1", "eyelashes-2")
 
 
 def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
@@ -76,13 +76,13 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
     landmarks = _landmarks(body, carry, eyes)
     skin, cut = cut_bust(body, landmarks)
     carry = cut @ carry
-    parts = eyes + tuple(Part(kind, _smooth(base, vertices, group)) for group, kind in _PARTS)
+    mouth = tuple(Part(kind, _smooth(base, vertices, group).triangulated()) for group, kind in _MOUTH)
     return Head(
         name="makehuman",
         skin=skin,
         head_weight=head_weight(skin.vertices, landmarks),
         landmarks=landmarks,
-        parts=parts,
+        parts=(*eyes, *mouth, *_lashes(base, vertices)),
         expressions=_expressions(folder, len(vertices), carry),
         notes=(
             f"MakeHuman's CC0 human, age {age:g}, masculine {masculine:g}",
@@ -101,38 +101,48 @@ def _shape(base: BaseMesh, folder: Path, age: float, masculine: float) -> Floats
             for ethnic in ETHNIC_TARGETS:
                 add_target(vertices, folder, f"macrodetails/{ethnic}-{sex}-{years}", weight / len(ETHNIC_TARGETS))
             add_target(vertices, folder, f"macrodetails/universal-{sex}-{years}-averagemuscle-averageweight", weight)
-    return vertices
+    return vertices + _LIPS_TOGETHER * expression_offsets(folder, "mouth-open", len(vertices))
 
 
 def _smooth_body(base: BaseMesh, vertices: Floats) -> tuple[TriangleMesh, sparse.csr_array]:
     """The upper body, subdivided once, and the matrix that makes it from all vertices of the base mesh."""
     body = base.quads("body", vertices)
-    near = vertices[:, 1] > -_KEPT_BELOW_SKULL
-    coarse, used = body.selected(near[body.faces].all(axis=1))
+    highest = vertices[body.faces, 1].max(axis=1)
+    coarse, used = body.selected(highest > -_KEPT_BELOW_SKULL)
     select = sparse.csr_array((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), len(vertices)))
     fine, carry = catmull_clark(coarse)
     return fine.triangulated(), carry @ select
 
 
-def _smooth(base: BaseMesh, vertices: Floats, group: str) -> TriangleMesh:
+def _smooth(base: BaseMesh, vertices: Floats, group: str) -> QuadMesh:
     """One group of helpers, subdivided."""
-    quads, _ = base.quads(group, vertices).selected(slice(None))
-    return catmull_clark(quads)[0].triangulated()
+    quads, _ = base.quads(group, vertices).selected()
+    return catmull_clark(quads)[0]
+
+
+def _lashes(base: BaseMesh, vertices: Floats) -> tuple[Part, ...]:
+    return tuple(
+        Part(
+            "lashes", lash_hairs(_smooth(base, vertices, f"helper-{side}-{strip}"), base.joint(f"{side}-eye", vertices))
+        )
+        for side in ("l", "r")
+        for strip in _LASHES
+    )
 
 
 def _eye(base: BaseMesh, vertices: Floats, side: str) -> Part:
     """An eyeball at the eye's joint, looking at the joint's target."""
     centre = base.joint(f"{side}-eye", vertices)
     axis = base.joint(f"{side}-eye-target", vertices) - centre
-    ball = base.quads(f"helper-{side}-eye", vertices).selected(slice(None))[0].vertices
-    radius = float(np.median(np.linalg.norm(ball - centre, axis=1)))
+    ball = base.quads(f"helper-{side}-eye", vertices).selected()[0].vertices
+    radius = _EYE_SHRINK * float(np.median(np.linalg.norm(ball - centre, axis=1)))
     return eyeball(centre, axis / np.linalg.norm(axis), radius)
 
 
 def _landmarks(body: TriangleMesh, carry: sparse.csr_array, eyes: tuple[Part, ...]) -> Landmarks:
     """The landmarks on the subdivided body, each where subdivision moves its vertex of the base mesh."""
     moved_to = carry[: carry.shape[1]].argmax(axis=0)
-    left, right = (eye.centre + eye.radius * eye.axis for eye in eyes)
+    left, right = (pupil(eye) for eye in eyes)
     named = {name: body.vertices[moved_to[index]] for name, index in _LANDMARKS.items()}
     middle = body.vertices[np.abs(body.vertices[:, 0]) < 1e-6]
     skull = middle[middle[:, 1] > named["nose_tip"][1]]

@@ -38,11 +38,11 @@ def submesh(mesh: TriangleMesh, faces: Ints) -> TriangleMesh:
 def joined(meshes: list[TriangleMesh]) -> TriangleMesh:
     """Several meshes as one; they stay apart from each other."""
     starts = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes[:-1]])
-    uvs = [mesh.corner_uv for mesh in meshes]
+    uvs = [mesh.corner_uv for mesh in meshes if mesh.corner_uv is not None]
     return TriangleMesh(
         np.concatenate([mesh.vertices for mesh in meshes]),
         np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts)]),
-        None if any(uv is None for uv in uvs) else np.concatenate(uvs),
+        np.concatenate(uvs) if len(uvs) == len(meshes) else None,
     )
 
 
@@ -109,8 +109,13 @@ def _kind(piece: TriangleMesh, eyes: list[Part], top: float, height: float) -> s
         if np.linalg.norm(away[:2]) < _LASH_REACH * eye.radius and size.max() < 4.0 * eye.radius:
             return "lashes" if away[1] < eye.radius else "brows"
     levels = (top - high[1]) / height, (top - low[1]) / height
-    if _MOUTH_LEVELS[0] < levels[0] and levels[1] < _MOUTH_LEVELS[1] and abs(middle[0]) < 0.05 * height:
-        if size[0] < 2.0 * _MOUTH_HALF_WIDTH * height:
-            return "tongue" if size[2] > size[0] else "teeth"
+    in_mouth = (
+        _MOUTH_LEVELS[0] < levels[0]
+        and levels[1] < _MOUTH_LEVELS[1]
+        and abs(middle[0]) < 0.05 * height
+        and size[0] < 2.0 * _MOUTH_HALF_WIDTH * height
+    )
+    if in_mouth:
+        return "tongue" if size[2] > size[0] else "teeth"
     below_the_head = levels[0] > 0.8
     return None if below_the_head else "other"

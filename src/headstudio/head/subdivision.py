@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 
 from .mesh import Floats, Ints, TriangleMesh
@@ -22,10 +23,11 @@ class QuadMesh:
     faces: Ints
     corner_uv: Floats
 
-    def selected(self, keep: np.ndarray) -> tuple[QuadMesh, Ints]:
-        """The faces where ``keep`` is true, shape (m,), without loose vertices; and the old index of each vertex."""
-        old, faces = np.unique(self.faces[keep], return_inverse=True)
-        return QuadMesh(self.vertices[old], faces.reshape(-1, 4), self.corner_uv[keep]), old
+    def selected(self, keep: NDArray[np.bool_] | None = None) -> tuple[QuadMesh, Ints]:
+        """The faces where ``keep`` is true, shape (m,), or all, without loose vertices; and the vertices' old indices."""
+        kept = np.arange(len(self.faces)) if keep is None else np.nonzero(keep)[0]
+        old, faces = np.unique(self.faces[kept], return_inverse=True)
+        return QuadMesh(self.vertices[old], faces.reshape(-1, 4), self.corner_uv[kept]), old
 
     def triangulated(self) -> TriangleMesh:
         """Every quad split along its shorter diagonal."""
@@ -74,7 +76,7 @@ def _vertex_points(
     count: int,
     faces: Ints,
     edges: Ints,
-    inner_edge: np.ndarray,
+    inner_edge: NDArray[np.bool_],
     face_points: sparse.csr_array,
     midpoints: sparse.csr_array,
 ) -> sparse.csr_array:
