@@ -8,30 +8,36 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.linalg import splu
 
 from .cut import Patch
+from .head import HeadError
 from .mesh import Floats, Ints, TriangleMesh
 
-# The sides of the square in the order of the patch's sides: where each starts, and where it goes.
+# The corners of the square in the order of the patch's sides.
 _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+# Angles [rad] and lengths (in mean edge lengths) enter the weights within these bounds: needles and caps would
+# otherwise swamp the system with weights 1e9 apart, and the map stays one to one with any positive weights.
+_ANGLES = np.radians([0.5, 175.0])
+_LENGTHS = 0.02, 50.0
+# The shortest piece of a side, as a part of it, for the same reason.
+_SHORTEST = 1e-6
 
 
 def map_to_square(patch: Patch) -> tuple[Floats, str]:
-    """Coordinates in the unit square for every vertex of a disc with four sides, shape (n, 2), and how they were found.
+    """Coordinates in the unit square for every vertex of a disc with four sides, (n, 2), and how they were found.
 
-    Each side lies on a side of the square by its arc length. The map is harmonic (cotangent weights); where that turns
-    a triangle over, which obtuse triangles can do, weights are mean value coordinates (Floater 2003): they are
-    positive, and a positive convex combination map to a convex outline is one to one.
+    Each side lies on a side of the square by its arc length. The map is harmonic (cotangent weights). Obtuse triangles
+    can make that turn some over; then the weights are mean value coordinates, which are positive, and a map to a convex
+    outline with positive weights is one to one (Floater 2003). Raises HeadError when rounding defeats even that.
     """
     mesh = patch.disc.mesh
     border = np.concatenate([side[:-1] for side in patch.sides])
     placed = np.concatenate([_along(mesh.vertices[side], k)[:-1] for k, side in enumerate(patch.sides)])
     uv = igl.harmonic(mesh.vertices, mesh.faces, border, placed, 1)
-    if _keeps_orientation(uv, mesh.faces):
+    if _is_one_to_one(uv, mesh.faces):
         return uv, "harmonic"
     uv = _convex_combination(mean_value_weights(mesh), border, placed)
-    if _keeps_orientation(uv, mesh.faces):
+    if _is_one_to_one(uv, mesh.faces):
         return uv, "mean value"
-    edges = igl.adjacency_matrix(mesh.faces)
-    return _convex_combination(csr_array(edges.astype(np.float64)), border, placed), "Tutte"
+    raise HeadError("the scalp cannot be flattened: its triangles are too thin; repair or remesh the head")
 
 
 def mean_value_weights(mesh: TriangleMesh) -> csr_array:
@@ -39,30 +45,17 @@ def mean_value_weights(mesh: TriangleMesh) -> csr_array:
 
     w_ij = (tan(a / 2) + tan(b / 2)) / |x_j - x_i| with the angles a, b at vertex i on both sides of the edge to j.
     """
-    half_tangents = np.tan(igl.internal_angles(mesh.vertices, mesh.faces) / 2)
-    rows, columns, values = [], [], []
-    for k in range(3):
-        at = mesh.faces[:, k]
-        for other in (1, 2):
-            to = mesh.faces[:, (k + other) % 3]
-            rows.append(at)
-            columns.append(to)
-            values.append(half_tangents[:, k] / np.linalg.norm(mesh.vertices[to] - mesh.vertices[at], axis=1))
-    size = len(mesh.vertices)
-    return coo_array(
-        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(size, size)
-    ).tocsr()
-
-
-def _along(curve: Floats, side: int) -> Floats:
-    """Points on one side of the square, spaced as the curve's points are along the curve, shape (k, 2)."""
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
-    part = (length / length[-1])[:, None]
-    return (1 - part) * _CORNERS[side] + part * _CORNERS[(side + 1) % 4]
-
-
-def _keeps_orientation(uv: Floats, faces: Ints) -> bool:
-    return bool(signed_areas(uv, faces).min() > 0)
+    corners = mesh.vertices[mesh.faces]
+    lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    lengths = np.clip(lengths, *(bound * lengths.mean() for bound in _LENGTHS))
+    angles = np.nan_to_num(igl.internal_angles(mesh.vertices, mesh.faces))
+    half_tangents = np.tan(np.clip(angles, *_ANGLES) / 2)
+    # Corner k of a triangle has an edge to the next corner, and one to the last, which is that corner's own next.
+    to_next, to_last = half_tangents / lengths, half_tangents / np.roll(lengths, 1, axis=1)
+    after, before = np.roll(mesh.faces, -1, axis=1), np.roll(mesh.faces, 1, axis=1)
+    rows, columns = np.tile(mesh.faces.ravel(), 2), np.concatenate([after.ravel(), before.ravel()])
+    values = np.concatenate([to_next.ravel(), to_last.ravel()])
+    return coo_array((values, (rows, columns)), shape=(len(mesh.vertices),) * 2).tocsr()
 
 
 def signed_areas(uv: Floats, faces: Ints) -> Floats:
@@ -71,15 +64,25 @@ def signed_areas(uv: Floats, faces: Ints) -> Floats:
     return 0.5 * (first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
 
 
+def _is_one_to_one(uv: Floats, faces: Ints) -> bool:
+    return bool((signed_areas(uv, faces) > 0).all())
+
+
+def _along(curve: Floats, side: int) -> Floats:
+    """Points on one side of the square, spaced as the curve's points are along the curve, shape (k, 2)."""
+    pieces = np.linalg.norm(np.diff(curve, axis=0), axis=1)
+    length = np.concatenate([[0.0], np.cumsum(np.maximum(pieces, _SHORTEST * pieces.sum()))])
+    part = (length / length[-1])[:, None]
+    return (1 - part) * _CORNERS[side] + part * _CORNERS[(side + 1) % 4]
+
+
 def _convex_combination(weights: csr_array, border: Ints, placed: Floats) -> Floats:
     """Positions where every vertex off the border is the weighted mean of its neighbours, shape (n, 2)."""
-    size = weights.shape[0]
-    inner = np.setdiff1d(np.arange(size), border)
-    uv = np.empty((size, 2))
+    inner = np.setdiff1d(np.arange(weights.shape[0]), border)
+    uv = np.empty((weights.shape[0], 2))
     uv[border] = placed
     rows = weights[inner]
-    total = rows.sum(axis=1)
-    system = -rows[:, inner].tocsc()
-    system.setdiag(total)
+    system = -rows[:, inner].tolil()
+    system.setdiag(rows.sum(axis=1))
     uv[inner] = splu(system.tocsc()).solve(rows[:, border] @ placed)
     return uv

@@ -16,6 +16,7 @@ from .splitting import SplittableMesh
 _SNAP_KNOT = 0.08
 _SNAP_CROSSING = 0.03
 _LEFT_OUT = -1
+_CROSSING = "the curves around the scalp cross or touch each other"
 
 
 def insert_knots(mesh: SplittableMesh, surface_faces: Ints, knots: SurfacePoints, corners: Sequence[int]) -> list[int]:
@@ -91,9 +92,6 @@ def trace_loop(mesh: SplittableMesh, stops: Sequence[int], corners: Sequence[int
     return loop
 
 
-_CROSSING = "the curves around the scalp cross or touch each other"
-
-
 def _step(
     mesh: SplittableMesh, loop: Sequence[int], target: int, before: Mapping[int, int], may_turn_back: bool
 ) -> int:
@@ -109,8 +107,6 @@ def _step(
     way = mesh.positions[target] - here
     right = np.cross(way, mesh.normals[vertex] + mesh.normals[target])
     rim = list(mesh.opposite[vertex].items())
-    if not rim:
-        raise HeadError("a curve around the scalp runs over the border of the surface")
     first = np.array([mesh.positions[b] for b, _ in rim]) - here
     second = np.array([mesh.positions[c] for _, c in rim]) - here
     from_right, to_left = first @ right, second @ right
@@ -120,7 +116,7 @@ def _step(
     ahead = np.where(crossed, meeting @ way / np.maximum(np.linalg.norm(meeting, axis=1), 1e-300), -np.inf)
     best = int(np.argmax(ahead))
     if ahead[best] <= 0:
-        raise HeadError("a curve around the scalp runs over the border or a sharp crease of the surface")
+        return _over_crease(mesh, vertex, target, before)
     (b, c), at = rim[best], float(part[best])
     near = b if at < _SNAP_CROSSING else c if at > 1 - _SNAP_CROSSING else -1
     if near >= 0 and (near not in before or near == target or (may_turn_back and near == before[vertex])):
@@ -128,6 +124,16 @@ def _step(
     if before.get(b) == c or before.get(c) == b:
         raise HeadError(_CROSSING)
     return mesh.split_edge(b, c, min(max(at, _SNAP_CROSSING), 1 - _SNAP_CROSSING))
+
+
+def _over_crease(mesh: SplittableMesh, vertex: int, target: int, before: Mapping[int, int]) -> int:
+    """Where to go when no triangle lies ahead, as on a sharp crease: the free neighbour that is nearest to the target."""
+    starts, ends = set(mesh.opposite[vertex]), set(mesh.opposite[vertex].values())
+    free = [b for b in starts if b not in before]
+    if starts != ends or not free:
+        raise HeadError("a curve around the scalp runs over the border of the skin")
+    distance = np.linalg.norm([mesh.positions[b] - mesh.positions[target] for b in free], axis=1)
+    return free[int(np.argmin(distance))]
 
 
 def split_chords(mesh: SplittableMesh, loop: Sequence[int]) -> None:
