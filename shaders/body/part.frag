@@ -11,10 +11,12 @@ uniform vec3 hair_colour;
 in vec3 v_place;
 in vec3 v_rest;
 in vec3 v_normal;
+in vec2 v_paint;
 out vec4 colour;
 
-const float iris_radius = 0.0059;
-const float pupil_radius = 0.0019;
+// Of the ball's radius.
+const float iris_radius = 0.45;
+const float pupil_radius = 0.15;
 
 float noise(float x) {
     float i = floor(x), f = fract(x);
@@ -24,18 +26,17 @@ float noise(float x) {
 
 // Colour of the eye at a direction from its centre: sclera, limbal ring, iris with its fibres, pupil.
 vec3 eye_colour(vec3 d) {
-    float r = length(d - pupil * dot(d, pupil)) * ball.w;
-    if (dot(d, pupil) < 0.0) r = ball.w;
+    float r = dot(d, pupil) > 0.0 ? length(d - pupil * dot(d, pupil)) : 1.0;
     vec3 side = normalize(cross(vec3(0.0, 1.0, 0.0), pupil));
     float angle = atan(dot(d, cross(pupil, side)), dot(d, side));
-    vec3 sclera = vec3(0.80, 0.75, 0.71) - vec3(0.05, 0.20, 0.20) * smoothstep(0.007, 0.013, r);
+    vec3 sclera = vec3(0.74, 0.69, 0.65) - vec3(0.06, 0.20, 0.20) * smoothstep(0.55, 0.9, r);
     float fibres = 0.55 * noise(angle * 14.0) + 0.45 * noise(angle * 31.0 + 7.0);
     float inward = clamp((r - pupil_radius) / (iris_radius - pupil_radius), 0.0, 1.0);
-    vec3 iris = iris_colour * mix(0.75, 1.55, fibres) * mix(1.25, 0.8, inward);
-    iris = mix(iris, iris_colour * vec3(1.5, 1.15, 0.7), 0.45 * (1.0 - smoothstep(0.0, 0.45, inward)));
-    iris *= 1.0 - 0.78 * smoothstep(0.72, 1.0, inward);
-    vec3 shown = mix(iris, sclera, smoothstep(iris_radius - 0.0003, iris_radius + 0.0006, r));
-    return mix(vec3(0.006), shown, smoothstep(pupil_radius - 0.0002, pupil_radius + 0.0003, r));
+    vec3 iris = iris_colour * mix(0.45, 1.15, fibres) * mix(1.2, 0.8, inward);
+    iris = mix(iris, iris_colour * vec3(1.3, 1.0, 0.6), 0.4 * (1.0 - smoothstep(0.0, 0.45, inward)));
+    iris *= 1.0 - 0.75 * smoothstep(0.70, 1.0, inward);
+    vec3 shown = mix(iris, sclera, smoothstep(iris_radius - 0.03, iris_radius + 0.05, r));
+    return mix(vec3(0.006), shown, smoothstep(pupil_radius - 0.02, pupil_radius + 0.03, r));
 }
 
 void main() {
@@ -43,42 +44,43 @@ void main() {
     vec3 to_eye = normalize(eye.xyz - v_place);
     vec3 l = to_light.xyz;
     if (dot(n, to_eye) < 0.0) n = -n;
-    float lit = shadow.x > 0.5 ? past_objects(v_place, 0.003, 0.003) * through_hair(v_place, 0.003) : 1.0;
+    float lit = light_at(v_place, 0.003, 0.003);
+    float open = 1.0 - v_paint.x;
 
     vec3 albedo;
-    float gloss, shine_strength, open = 1.0;
+    float gloss, strength, alpha = 1.0;
     if (kind == 0) {
         vec3 d = normalize(v_rest - ball.xyz);
         albedo = eye_colour(d);
         n = normalize(turned(d, head_turn.xyz));
         gloss = 900.0;
-        shine_strength = 9.0;
-        // The lids shade the ball: more from above, and in the corners.
-        open = (1.0 - 0.62 * smoothstep(0.12, 0.50, d.y)) * (1.0 - 0.35 * smoothstep(0.45, 0.8, abs(d.x - pupil.x)));
+        strength = 9.0;
     } else if (kind == 1) {
-        albedo = vec3(0.78, 0.72, 0.62);
+        albedo = vec3(0.72, 0.66, 0.57);
         gloss = 120.0;
-        shine_strength = 0.6;
-        open = 0.35;
+        strength = 0.6;
     } else if (kind == 2) {
         albedo = skin_colour * vec3(0.85, 0.35, 0.35);
         gloss = 60.0;
-        shine_strength = 0.3;
-        open = 0.35;
+        strength = 0.3;
     } else if (kind == 3) {
-        albedo = hair_colour * 0.10 + 0.004;
+        // Single hairs, a third of a millimetre apart, that thin out towards their tips.
+        float hairs = noise(v_rest.x * 3500.0 + v_rest.y * 900.0);
+        albedo = hair_colour * 0.08 + 0.003;
+        alpha = clamp(1.4 - 1.4 * v_paint.y, 0.0, 1.0) * mix(1.0, 1.4 * hairs, smoothstep(0.1, 0.6, v_paint.y));
         gloss = 20.0;
-        shine_strength = 0.02;
+        strength = 0.02;
     } else {
         albedo = vec3(0.5);
         gloss = 30.0;
-        shine_strength = 0.05;
+        strength = 0.05;
     }
     float n_l = clamp((dot(n, l) + 0.15) / 1.15, 0.0, 1.0);
     vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * open;
-    float shine = pow(max(dot(n, normalize(l + to_eye)), 0.0), gloss) * shine_strength * lit;
-    vec3 mirrored = reflect(-to_eye, n);
+    float shine = pow(max(dot(n, normalize(l + to_eye)), 0.0), gloss) * strength * lit;
+    // A wet eye mirrors the bright sky, more towards its rim.
     float wet = kind == 0 ? 0.03 + 0.35 * pow(1.0 - max(dot(n, to_eye), 0.0), 5.0) : 0.0;
-    vec3 window = sky.rgb * smoothstep(0.35, 0.75, mirrored.y) * 2.0 * wet * open;
-    colour = vec4(albedo * (radiance.rgb * n_l * lit * mix(1.0, open, 0.6) + soft) + radiance.rgb * shine + window, 1.0);
+    vec3 mirrored = sky.rgb * smoothstep(0.35, 0.75, reflect(-to_eye, n).y) * 2.0 * wet * open;
+    vec3 shown = albedo * (radiance.rgb * n_l * lit * mix(0.35, 1.0, open) + soft) + radiance.rgb * shine + mirrored;
+    colour = vec4(shown * alpha, alpha);
 }

@@ -40,11 +40,7 @@ void main() {
     float ground_cover = smoothstep(0.0, 1.0, v_cover);
     albedo = mix(albedo, hair_colour * 0.30, ground_cover * 0.92);
 
-    float lit = 1.0;
-    if (shadow.x > 0.5) {
-        float bias = 0.0015 + 0.003 * (1.0 - max(dot(n, l), 0.0));
-        lit = past_objects(v_place + n * 0.0015, bias, 0.004) * through_hair(v_place, 0.004);
-    }
+    float lit = light_at(v_place + n * 0.0015, 0.0015 + 0.003 * (1.0 - max(dot(n, l), 0.0)), 0.004);
     vec3 soft_lit = vec3(pow(lit, 0.75), lit, lit);
 
     float n_l = dot(n, l);

@@ -9,18 +9,23 @@ in vec4 v_body;
 in vec4 v_gleam;
 out vec4 colour;
 
+const float softness = 0.003;  // [m]
+
 void main() {
     vec2 strand = texture(strands, v_at).rg;
-    float alpha = strand.r * sides(v_body.w) * v_gleam.w;
+    // Behind the body nothing, and within a few millimetres of it less and less.
+    float behind = texelFetch(body_depth, ivec2(gl_FragCoord.xy), 0).r - gl_FragCoord.z;
+    float depth = 1.0 / gl_FragCoord.w;
+    float clear = behind * depth * depth * (1.0 / shadow.z - 1.0 / shadow.w);
+    float alpha = strand.r * sides(v_body.w) * v_gleam.w * clamp(clear / softness + 0.5, 0.0, 1.0);
 
     // Kajiya and Kay's highlight, moved along each strand by its own scales; a second, wider one has the hair's colour.
-    float shift = 0.30 * (strand.g - 0.5);
+    float shift = 0.28 * (strand.g - 0.5);
     float t_l = v_gleam.x + shift, t_v = v_gleam.y + shift;
-    float cosine = max(sqrt(max(1.0 - t_l * t_l, 0.0)) * sqrt(max(1.0 - t_v * t_v, 0.0)) - t_l * t_v, 0.0);
+    float cosine = max(sqrt(max((1.0 - t_l * t_l) * (1.0 - t_v * t_v), 0.0)) - t_l * t_v, 0.0);
     float wide = pow(cosine, gloss * 0.25);
     float narrow = wide * wide * wide * wide;
-    vec3 gleam = radiance.rgb * v_gleam.z * (0.10 * narrow + 0.9 * wide * hair_colour);
+    vec3 gleam = radiance.rgb * v_gleam.z * (0.12 * narrow + 0.9 * wide * hair_colour);
 
-    vec3 shade = v_body.rgb * (0.35 + 1.3 * strand.g) + gleam * (0.4 + 1.2 * strand.g);
-    colour = vec4(shade * alpha, alpha);
+    colour = vec4((v_body.rgb + gleam) * (0.25 + 1.5 * strand.g) * alpha, alpha);
 }

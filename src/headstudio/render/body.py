@@ -6,16 +6,19 @@ import moderngl
 import numpy as np
 
 from ..head.head import Head, Part
-from ..head.mesh import Floats, TriangleMesh
+from ..head.mesh import Floats
 from ..lcp.model import HairModel
 from ..scene.settings import Look
 from .context import load_program, set_uniforms
+from .openings import Openings
 from .scene_block import linear
-from .skin_paint import coarse_faces, paint, scalp_cover
+from .skin_paint import coarse_faces, paint, paint_part, scalp_cover
+from .view import View
 
 # Details below this [m] are left out of the body that casts shadows.
 _SHADOW_DETAIL = 0.004
-_UNSEEN_SHADOW_KINDS = ("eye", "teeth", "tongue")
+# How part.frag tells the parts apart.
+_KINDS = {"eye": 0, "teeth": 1, "tongue": 2, "lashes": 3, "brows": 3, "other": 4}
 
 
 class BodyPrograms:
@@ -32,8 +35,10 @@ class Body:
 
     def __init__(self, context: moderngl.Context, programs: BodyPrograms, head: Head) -> None:
         self.head = head
+        self._context = context
         self._programs = programs
-        self._cover_of: HairModel | None = None
+        self._roots_of: HairModel | None = None
+        self._openings = Openings(head.skin)
         skin = head.skin
         surface = np.concatenate([skin.vertices, skin.vertex_normals, head.head_weight[:, None]], axis=1)
         vertices = context.buffer(_floats(surface))
@@ -52,49 +57,56 @@ class Body:
             [(vertices, "3f 12x 1f", "position", "head_weight")],
             context.buffer(_indices(coarse_faces(skin, _SHADOW_DETAIL))),
         )
-        self._parts = [(part, _part_array(context, programs.part, part)) for part in head.parts]
+        # Lashes are translucent, and so the last.
+        parts = sorted(head.parts, key=lambda part: _KINDS[part.kind] == _KINDS["lashes"])
+        self._parts = [(part, self._part_array(part)) for part in parts]
 
     def set_roots(self, hair: HairModel | None) -> None:
         """Darken the skin that ``hair`` grows from; sent again only for another model."""
-        if hair is not self._cover_of:
+        if hair is not self._roots_of:
             self._cover.write(_bytes(scalp_cover(self.head, hair)))
-            self._cover_of = hair
+            self._roots_of = hair
 
     def draw_depth(self) -> None:
         """The body into the shadow map."""
         self._shadow.render()
 
-    def draw(self, look: Look) -> None:
-        """The body into the picture; the light and shadow maps are bound already."""
-        hair = tuple(linear(look.hair_colour))
-        set_uniforms(self._programs.skin, skin_colour=tuple(linear(look.skin_colour)), hair_colour=hair)
+    def draw(self, view: View, look: Look) -> None:
+        """The body into the framebuffer in use; the shadow map is texture 0 and the light map texture 1."""
+        colours = {
+            "skin_colour": tuple(linear(look.skin_colour)),
+            "hair_colour": tuple(linear(look.hair_colour)),
+            "iris_colour": tuple(linear(look.iris_colour)),
+        }
+        for program in (self._programs.skin, self._programs.part):
+            set_uniforms(program, shadow_map=0, light_map=1, **colours)
+        # Half of the triangles face away, and their inside is only seen through an opening.
+        if not self._openings.shown_to(view.eye):
+            self._context.enable(moderngl.CULL_FACE)
         self._skin.render()
-        program = self._programs.part
-        set_uniforms(
-            program,
-            iris_colour=tuple(linear(look.iris_colour)),
-            skin_colour=tuple(linear(look.skin_colour)),
-            hair_colour=hair,
-        )
+        self._context.disable(moderngl.CULL_FACE)
         for part, array in self._parts:
-            eye = part.kind == "eye" and part.axis is not None and part.centre is not None
-            set_uniforms(program, kind=_KINDS["eye" if eye else part.kind if part.kind != "eye" else "other"])
-            if eye:
-                set_uniforms(program, ball=(*map(float, part.centre), part.radius), pupil=tuple(map(float, part.axis)))  # type: ignore[arg-type]
-            array.render()
+            self._draw_part(part, array)
 
+    def _draw_part(self, part: Part, array: moderngl.VertexArray) -> None:
+        program, kind = self._programs.part, part.kind
+        if part.centre is not None and part.axis is not None:
+            set_uniforms(program, ball=(*part.centre.tolist(), part.radius), pupil=tuple(part.axis.tolist()))
+        elif kind == "eye":
+            kind = "other"
+        set_uniforms(program, kind=_KINDS[kind])
+        array.render()
 
-_KINDS = {"eye": 0, "teeth": 1, "tongue": 2, "lashes": 3, "brows": 3, "other": 4}
-
-
-def _part_array(context: moderngl.Context, program: moderngl.Program, part: Part) -> moderngl.VertexArray:
-    mesh: TriangleMesh = part.mesh
-    surface = np.concatenate([mesh.vertices, mesh.vertex_normals], axis=1)
-    return context.vertex_array(
-        program,
-        [(context.buffer(_floats(surface)), "3f 3f", "position", "normal")],
-        context.buffer(_indices(mesh.faces)),
-    )
+    def _part_array(self, part: Part) -> moderngl.VertexArray:
+        surface = np.concatenate([part.mesh.vertices, part.mesh.vertex_normals], axis=1)
+        return self._context.vertex_array(
+            self._programs.part,
+            [
+                (self._context.buffer(_floats(surface)), "3f 3f", "position", "normal"),
+                (self._context.buffer(_bytes(paint_part(self.head, part))), "2f1", "paint"),
+            ],
+            self._context.buffer(_indices(part.mesh.faces)),
+        )
 
 
 def _floats(values: Floats) -> bytes:

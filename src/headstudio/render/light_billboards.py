@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..lcp.model import HairModel
 from ..scene.settings import Look
-from .ribbons import HairFrames
+from .strands import HairCurves
 from .view import View
 
 BILLBOARD_DTYPE = np.dtype(
@@ -40,15 +40,15 @@ def opacity_scale(cosine: NDArray[np.float64], opacity: float) -> NDArray[np.flo
 
 
 def light_billboards(
-    frames: HairFrames, model: HairModel, windows: NDArray[np.float64], light: View, look: Look, size: int
+    curves: HairCurves, model: HairModel, windows: NDArray[np.float64], light: View, look: Look, size: int
 ) -> NDArray[np.void]:
     """The billboards of all particles in ascending depth from the light (thesis 3.4, line 7), of BILLBOARD_DTYPE, (n,).
 
     ``windows``: place of each particle in the strand texture, 0 to 1, (n,). ``size``: texels a side of the light map.
     """
-    depth = light.depth(frames.position)
+    depth = light.depth(curves.position)
     order = np.argsort(depth, kind="stable")
-    position, direction = frames.position[order], frames.direction[order]
+    position, direction = curves.position[order], curves.direction[order]
     texels = size / light.far
     half_width = 0.5 * look.billboard_width * model.spacing * texels
 

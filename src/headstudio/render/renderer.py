@@ -12,13 +12,10 @@ from .body import Body, BodyPrograms
 from .context import load_program, set_uniforms
 from .hair import Hair, HairPrograms
 from .overlays import OverlayPass
-from .ribbons import RibbonBuilder
 from .scene_block import SCENE_DTYPE, linear, scene_block
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
 from .timing import StageTimer
 from .view import View, camera_view, light_view
-
-BODY_SAMPLES = 0
 
 
 class Renderer:
@@ -54,14 +51,20 @@ class Renderer:
         camera: Camera,
         size: Size = (512, 512),
         target: moderngl.Framebuffer | None = None,
+        supersampling: int = 1,
     ) -> moderngl.Texture:
         """Draw the stage, and return the texture it is in; ``target``, if given, gets a copy.
 
-        ``size``: width and height in pixels. Raises RenderError for a size that cannot be drawn.
+        ``size``: width and height in pixels. ``supersampling``: how many times finer to draw before every pixel takes
+        the mean; 2 makes a still smooth and costs four times the time. Raises RenderError for a size that cannot be drawn.
         """
         before = self.context.fbo
         try:
-            return self._render(stage, look, camera, size, target)
+            targets = self._targets_for((int(size[0]), int(size[1])), supersampling)
+            self._render(stage, look, camera, targets)
+            if target is not None:
+                self.context.copy_framebuffer(target, targets.shown)
+            return targets.picture
         finally:
             self.context.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
             if before is not None:
@@ -77,14 +80,13 @@ class Renderer:
         pixels = np.frombuffer(self._targets.shown.read(components=3, alignment=1), np.uint8)
         return pixels.reshape(height, width, 3)[::-1].copy()
 
-    def _render(
-        self, stage: Stage, look: Look, camera: Camera, size: Size, target: moderngl.Framebuffer | None
-    ) -> moderngl.Texture:
+    def _render(self, stage: Stage, look: Look, camera: Camera, targets: PictureTargets) -> None:
         timer = self.timer
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
-            targets, maps = self._targets_for(size), self._maps_for(look.shadow_size)
-            view, light = camera_view(camera, size[0] / size[1]), self._light(stage, look, hair)
+            maps = self._maps_for(look.shadow_size)
+            width, height = targets.size
+            view, light = camera_view(camera, width / height), self._light(stage, look, hair)
             self._scene_block.write(scene_block(view, light, stage.frame, look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
         with timer.stage("shadow"):
@@ -94,22 +96,23 @@ class Renderer:
         maps.depth.use(0)
         maps.map.use(1)
         with timer.stage("body"):
-            self._draw_body(body if look.show_head else None, look, targets)
-        with timer.stage("hair"), self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
-            targets.scene.depth_mask = False
+            self._draw_body(body if look.show_head else None, view, look, targets)
+        with timer.stage("hair"), self.context.scope(targets.over_scene, moderngl.BLEND):
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             if hair is not None:
                 hair.draw(view, look, targets.depth)
+        with timer.stage("overlays"), self.context.scope(targets.scene, moderngl.NOTHING):
             self._overlays.draw(stage.overlays)
         with timer.stage("develop"), self.context.scope(targets.shown, moderngl.NOTHING):
             targets.colour.use(0)
             set_uniforms(
-                self._develop, linear_picture=0, background=tuple(linear(look.background)), size=tuple(map(float, size))
+                self._develop,
+                linear_picture=0,
+                background=tuple(linear(look.background)),
+                size=(float(width), float(height)),
+                supersampling=targets.supersampling,
             )
             self._screen.render(moderngl.TRIANGLES, vertices=3)
-        if target is not None:
-            self.context.copy_framebuffer(target, targets.shown)
-        return targets.picture
 
     def _pull(self, stage: Stage, look: Look) -> tuple[Body, Hair | None]:
         if self._body is None or self._body.head is not stage.head:
@@ -118,21 +121,17 @@ class Renderer:
         self._body.set_roots(hair.model if hair else None)
         if hair is None or hair.model.count == 0:
             return self._body, None
-        if (
-            self._hair is None
-            or self._hair.builder.model is not hair.model
-            or self._hair.builder.per_particle != look.ribbons
-        ):
-            self._hair = Hair(self.context, self._hair_programs, RibbonBuilder(hair.model, look.ribbons))
-        self._hair.place(hair, stage.frame)
+        if self._hair is None or self._hair.model is not hair.model or self._hair.per_particle != look.ribbons:
+            self._hair = Hair(self.context, self._hair_programs, hair.model, look.ribbons)
+        self._hair.place(hair, stage.frame, look)
         return self._body, self._hair
 
     def _light(self, stage: Stage, look: Look, hair: Hair | None) -> View:
         low, high = stage.head.skin.bounds
         centre = (low + high) / 2 + stage.frame.translation
         radius = float(np.linalg.norm(high - low)) / 2
-        if hair is not None and hair.frames is not None:
-            radius = max(radius, float(np.linalg.norm(hair.frames.position - centre, axis=1).max()))
+        if hair is not None and hair.curves is not None:
+            radius = max(radius, float(np.linalg.norm(hair.curves.position - centre, axis=1).max()))
         # In steps, so that the texels of the maps do not creep over the head as the hair moves.
         return light_view(look, centre, np.ceil(radius / 0.02) * 0.02)
 
@@ -144,28 +143,21 @@ class Renderer:
 
     def _shed_light(self, hair: Hair | None, light: View, look: Look, maps: LightTargets) -> None:
         maps.light.clear(1.0, 1.0, 1.0, 1.0)
-        if hair is None:
-            return
-        if look.shadows:
-            maps.depth.use(0)
+        if hair is not None:
             hair.shed_light(light, look, maps)
-        else:
-            hair.light_all()
 
-    def _draw_body(self, body: Body | None, look: Look, targets: PictureTargets) -> None:
-        for program in (self._body_programs.skin, self._body_programs.part):
-            set_uniforms(program, shadow_map=0, light_map=1)
-        with self.context.scope(targets.body, moderngl.DEPTH_TEST):
-            targets.body.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
+    def _draw_body(self, body: Body | None, view: View, look: Look, targets: PictureTargets) -> None:
+        with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
+            self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            targets.scene.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
             if body is not None:
-                body.draw(look)
-        targets.scene.depth_mask = True
-        self.context.copy_framebuffer(targets.scene, targets.body)
+                body.draw(view, look)
 
-    def _targets_for(self, size: Size) -> PictureTargets:
-        if self._targets is None or self._targets.size != tuple(size):
-            self._targets = picture_targets(self.context, (int(size[0]), int(size[1])), BODY_SAMPLES)
-        return self._targets
+    def _targets_for(self, size: Size, supersampling: int) -> PictureTargets:
+        known = self._targets
+        if known is None or known.size != size or known.supersampling != supersampling:
+            known = self._targets = picture_targets(self.context, size, supersampling)
+        return known
 
     def _maps_for(self, size: int) -> LightTargets:
         if self._maps is None or self._maps.size != size:

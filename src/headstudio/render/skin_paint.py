@@ -9,7 +9,7 @@ import igl
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..head.head import Head, Landmarks
+from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..lcp.model import HairModel
 
@@ -58,6 +58,15 @@ def paint(head: Head) -> Floats:
     return np.stack([occlusion(head.skin), _lips(points, marks), _brows(points, marks), _flush(points, marks)], axis=1)
 
 
+def paint_part(head: Head, part: Part) -> Floats:
+    """Of every vertex of a part: how much the skin hides it from its sky, and how far it stands out of the skin, 0 at the
+    root of a lash to 1 at its tip; (n, 2)."""
+    skin, mesh = head.skin, part.mesh
+    hidden = igl.ambient_occlusion(skin.vertices, skin.faces, mesh.vertices, mesh.vertex_normals, _OCCLUSION_RAYS)
+    distance, _ = cKDTree(skin.vertices).query(mesh.vertices)
+    return np.stack([hidden, distance / max(distance.max(), 1e-9)], axis=1)
+
+
 def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
     """How densely hair roots stand on the skin, 0 to 1, (n,): the ground that hair grows from is never bare skin."""
     if hair is None:
@@ -84,16 +93,36 @@ def _face_axes(marks: Landmarks) -> tuple[Floats, Floats]:
 def _lips(points: Floats, marks: Landmarks) -> Floats:
     """Red of the lips: between two arcs from corner to corner of the mouth."""
     left, up = _face_axes(marks)
+    out = np.cross(left, up)
     middle = (marks.mouth_left + marks.mouth_right) / 2
-    half = np.linalg.norm(marks.mouth_left - marks.mouth_right) / 2
-    across = ((points - middle) @ left) / half
-    height = ((points - middle) @ up) / half
+    half = float(np.linalg.norm(marks.mouth_left - marks.mouth_right)) / 2
+    across, height, depth = ((points - middle) @ axis / half for axis in (left, up, out))
     arch = np.sqrt(np.clip(1 - across**2, 0, 1))
-    bow = 1 - 0.22 * np.exp(-((across / 0.16) ** 2))
-    upper, lower = 0.33 * arch * bow, 0.40 * arch
+    height = height - _mouth_line(across, height, depth) * np.clip(1 - across**2, 0, 1)
+    bow = 1 - 0.20 * np.exp(-((across / 0.16) ** 2))
+    upper, lower = 0.34 * arch * bow, 0.44 * arch
     inside = np.where(height > 0, height / np.maximum(upper, 1e-6), -height / np.maximum(lower, 1e-6))
-    front = _smoothstep(-0.035, -0.015, (points - middle) @ np.cross(left, up))
+    front = _smoothstep(-1.7, -0.7, depth)
     return (1 - _smoothstep(0.75, 1.15, inside)) * front * (np.abs(across) < 1)
+
+
+def _mouth_line(across: Floats, height: Floats, depth: Floats) -> float:
+    """Height at which the lips meet in the middle, above the corners; all in half widths of the mouth.
+
+    In profile the lips stand out above and below the line where they meet: it is the deepest notch between two bulges.
+    """
+    near = (np.abs(across) < 0.15) & (np.abs(height) < 0.7)
+    bins = np.linspace(-0.7, 0.7, 22)
+    profile = np.full(len(bins), -np.inf)
+    np.maximum.at(profile, np.clip(np.searchsorted(bins, height[near]), 0, len(bins) - 1), depth[near])
+    seen = np.isfinite(profile)
+    if not seen.any():
+        return 0.0
+    profile = np.interp(bins, bins[seen], profile[seen])
+    above = np.maximum.accumulate(profile[::-1])[::-1]
+    notch = np.minimum(np.maximum.accumulate(profile), above) - profile
+    deepest = int(np.argmax(notch))
+    return float(bins[deepest]) if notch[deepest] > 0 else 0.0
 
 
 def _brows(points: Floats, marks: Landmarks) -> Floats:

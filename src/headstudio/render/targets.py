@@ -15,17 +15,16 @@ Size = tuple[int, int]
 class PictureTargets:
     """Linear colour (half floats, premultiplied alpha) with depth, and what is shown (8 bits, sRGB).
 
-    The body is drawn with ``samples`` samples a pixel into ``body`` and resolved into ``scene``, which the hair, being
-    soft by itself, is drawn into. ``depth_copy`` is the depth of the body as a texture the hair may read while the
-    depth buffer is in use.
+    ``scene`` is ``supersampling`` times as large as ``size``. The hair is drawn into ``over_scene``, the same colour
+    without the depth buffer: it reads the depth as a texture, and ends softly where the body begins.
     """
 
     size: Size
-    body: moderngl.Framebuffer
+    supersampling: int
     scene: moderngl.Framebuffer
     colour: moderngl.Texture
-    depth_copy: moderngl.Framebuffer
     depth: moderngl.Texture
+    over_scene: moderngl.Framebuffer
     shown: moderngl.Framebuffer
     picture: moderngl.Texture
 
@@ -41,23 +40,27 @@ class LightTargets:
     map: moderngl.Texture
 
 
-def picture_targets(context: moderngl.Context, size: Size, samples: int) -> PictureTargets:
+def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -> PictureTargets:
     """Targets of ``size`` pixels (width, height). Raises RenderError for a size this machine cannot draw."""
-    largest = context.info["GL_MAX_TEXTURE_SIZE"]
+    largest = context.info["GL_MAX_TEXTURE_SIZE"] // supersampling
     if not all(1 <= side <= largest for side in size):
         raise RenderError(f"a picture has 1 to {largest} pixels a side here, got {size[0]} x {size[1]}")
-    samples = min(samples, context.max_samples)
-    body = context.framebuffer(
-        [context.renderbuffer(size, 4, samples=samples, dtype="f2")], context.depth_renderbuffer(size, samples=samples)
-    )
-    colour = _texture(context, size, 4, "f2", moderngl.NEAREST)
-    scene = context.framebuffer([colour], context.depth_renderbuffer(size))
-    depth = context.depth_texture(size)
+    fine = (size[0] * supersampling, size[1] * supersampling)
+    colour = _texture(context, fine, 4, "f2", moderngl.NEAREST)
+    depth = context.depth_texture(fine)
     depth.compare_func = ""
     depth.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    depth_copy = context.framebuffer([], depth)
     picture = _texture(context, size, 4, "f1", moderngl.LINEAR)
-    return PictureTargets(size, body, scene, colour, depth_copy, depth, context.framebuffer([picture]), picture)
+    return PictureTargets(
+        size=size,
+        supersampling=supersampling,
+        scene=context.framebuffer([colour], depth),
+        colour=colour,
+        depth=depth,
+        over_scene=context.framebuffer([colour]),
+        shown=context.framebuffer([picture]),
+        picture=picture,
+    )
 
 
 def light_targets(context: moderngl.Context, size: int) -> LightTargets:

@@ -68,13 +68,18 @@ class Look:
     light_strength: float = number(3.0, "Light", "", 0.0, 10.0, "Irradiance of the light.", live=True)
     ambient: float = number(0.5, "Ambient", "", 0.0, 3.0, "Soft light from all around.", live=True)
     billboard_width: float = number(
-        1.6, "Billboard width", "", 0.5, 4.0, "Width of a billboard, in mean particle distances.", live=True
+        1.1, "Billboard width", "", 0.5, 4.0, "Width of a billboard, in mean particle distances.", live=True
     )
     billboard_stretch: float = number(
-        2.2, "Billboard stretch", "", 1.0, 6.0, "Length of a billboard over its width.", live=True
+        5.0, "Billboard stretch", "", 1.0, 8.0, "Length of a billboard over its width.", live=True
     )
     ribbons: int = integer(
-        2, "Ribbons", 1, 12, "How many narrow billboards share the place of one particle: more look finer, and cost.", live=True
+        2,
+        "Ribbons",
+        1,
+        12,
+        "How many narrow billboards share the place of one particle: more look finer, and cost.",
+        live=True,
     )
     hair_opacity: float = number(0.8, "Opacity", "", 0.05, 1.0, "Opacity of a billboard in its middle.", live=True)
     forward_scatter: float = number(

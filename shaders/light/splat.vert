@@ -1,7 +1,8 @@
 #version 330
 // A billboard into the light map. Particles in the shadow of the objects take no light from anyone.
-#include "common/billboards.glsl"
-uniform sampler2D particle_light;
+#include "common/particles.glsl"
+uniform sampler2D billboards;
+uniform sampler2D received;
 uniform int first;
 uniform float map_size;
 in vec2 corner;
@@ -11,13 +12,13 @@ flat out float v_opacity;
 
 void main() {
     int rank = first + gl_InstanceID;
-    vec4 a = billboard(rank, 0);
-    vec4 b = billboard(rank, 1);
-    int particle = int(billboard(rank, 2).y + 0.5);
+    vec4 a = record(billboards, rank, 3, 0);
+    vec4 b = record(billboards, rank, 3, 1);
+    int particle = int(record(billboards, rank, 3, 2).y + 0.5);
     v_local = corner;
     v_window = b.w;
-    v_opacity = b.z * texelFetch(particle_light, ivec2(particle % row, particle / row), 0).g;
+    v_opacity = b.z * record(received, particle, 1, 0).g;
     vec2 across = vec2(a.w, -a.z);
     vec2 texel = a.xy + across * corner.x * b.x + a.zw * corner.y * b.y;
-    gl_Position = vec4(texel / map_size * 2.0 - 1.0, v_opacity > 0.004 ? 0.0 : 2.0, 1.0);
+    gl_Position = vec4(texel / map_size * 2.0 - 1.0, v_opacity > 0.0 ? 0.0 : 2.0, 1.0);
 }

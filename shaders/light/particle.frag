@@ -1,4 +1,4 @@
 #version 330
-flat in vec2 v_light;
-out vec2 light;
+flat in vec4 v_light;
+out vec4 light;
 void main() { light = v_light; }

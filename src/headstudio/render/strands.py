@@ -1,0 +1,138 @@
+"""The hair around each particle: a short curve through it, along the directions of its neighbours.
+
+One particle stands for thousands of strands across a centimetre. Bando et al. 2006 draw it as one flat billboard, and
+name the interpolation between particles as future work. Here each particle knows the course of the hair through it,
+two neighbours far towards the root and towards the tip, and the billboards bend along it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+from scipy.spatial import cKDTree
+
+from ..head.frame import HeadFrame
+from ..head.mesh import Floats, Ints
+from ..lcp.model import HairModel
+from ..scene.stage import HairOnStage
+
+SECTIONS = 5
+"""Places on the curve: two towards the root, the particle itself, two towards the tip."""
+
+_NEIGHBOURS_ASKED = 24
+# Arc lengths [m] between which hair fades in: ribbons start softly, and a few millimetres beside their own root.
+_LEAVES_SCALP = (-0.002, 0.014)
+
+
+@dataclass(frozen=True, eq=False)
+class HairCurves:
+    """The hair through every particle at one instant, in the world.
+
+    position [m] and unit direction of the particles, (n, 3); sideways: a unit vector across the hair that turns with it,
+    (n, 3). path [m] and tangent (unit) at the sections, root first, (n, SECTIONS, 3); along: their distances from the
+    particle as a part of the curve's half length, -1 to 1, (n, SECTIONS). grown: 0 where the hair is still under the
+    scalp, 1 where it has left it for good, (n, SECTIONS).
+    """
+
+    position: Floats
+    direction: Floats
+    sideways: Floats
+    path: Floats
+    tangent: Floats
+    along: Floats
+    grown: Floats
+
+
+class CurveBuilder:
+    """What can be said of the curves of a model before it moves; made once per model."""
+
+    def __init__(self, model: HairModel) -> None:
+        self.model = model
+        root, tip = model.links.T
+        self._rootward_mean = _mean_over(tip, root, model.alignment, model.count)
+        self._tipward_mean = _mean_over(root, tip, model.alignment, model.count)
+        self._hop = float(model.rest_length.mean()) if len(model.rest_length) else model.spacing
+        self._rest_sideways = _across(model.rest_directions)
+        # No curve starts deeper under the scalp than the roots lie.
+        self._depth = model.arc_length - model.arc_length.min(initial=0.0)
+
+    def curves(self, hair: HairOnStage, frame: HeadFrame, half_length: float) -> HairCurves:
+        """The curves reaching ``half_length`` [m] to both sides of each particle, but not out of the roots."""
+        turn = frame.rotation.as_matrix().T
+        position = hair.positions @ turn + frame.translation
+        direction = hair.directions @ turn
+        rootward = self._directions(self._rootward_mean, direction)
+        tipward = self._directions(self._tipward_mean, direction)
+        path, tangent = np.empty((2, len(position), SECTIONS, 3))
+        along = np.empty((len(position), SECTIONS))
+        path[:, 2], tangent[:, 2], along[:, 2] = position, direction, 0.0
+        reach = np.minimum(half_length, self._depth)
+        for sign, directions, length in ((-1, rootward, reach), (1, tipward, np.full(len(position), half_length))):
+            for k in (1, 2):
+                here, before = 2 + sign * k, 2 + sign * (k - 1)
+                tangent[:, here] = _at(directions, 0.5 * k * length / self._hop)
+                step = 0.25 * sign * length[:, None] * (tangent[:, here] + tangent[:, before])
+                path[:, here] = path[:, before] + step
+                along[:, here] = 0.5 * sign * k * length / half_length
+        from_scalp = self.model.arc_length[:, None] + half_length * along
+        grown = np.clip((from_scalp - _LEAVES_SCALP[0]) / (_LEAVES_SCALP[1] - _LEAVES_SCALP[0]), 0.0, 1.0)
+        return HairCurves(position, direction, self._sideways(hair.directions) @ turn, path, tangent, along, grown)
+
+    def _directions(self, mean: csr_array, direction: Floats) -> list[Floats]:
+        """Directions of the hair at the particle, one neighbour and two neighbours away; straight on where it ends."""
+        directions = [direction]
+        for _ in range(2):
+            there = mean @ directions[-1]
+            known = np.einsum("ni,ni->n", there, there) > 0
+            directions.append(unit(np.where(known[:, None], there, directions[-1])))
+        return directions
+
+    def _sideways(self, direction: Floats) -> Floats:
+        """The rest frames turned onto the hair by the smallest rotation; undefined only where hair turns by 180 degrees."""
+        rest, side = self.model.rest_directions, self._rest_sideways
+        cosine = np.einsum("ni,ni->n", rest, direction)
+        along = np.einsum("ni,ni->n", side, direction) / np.maximum(1 + cosine, 1e-3)
+        return unit(side - along[:, None] * (rest + direction))
+
+
+def openness(model: HairModel) -> Floats:
+    """How open to the soft light each particle lies, 0 deep in the hair to 1 on its surface, (n,).
+
+    A particle inside has neighbours all around, so that their mean is where it is itself; on the surface the mean lies
+    inside.
+    """
+    above = model.rest_positions[~model.fixed]
+    if len(above) == 0:
+        return np.ones(model.count)
+    distance, near = cKDTree(above).query(model.rest_positions, k=range(1, min(_NEIGHBOURS_ASKED, len(above)) + 1))
+    offset = np.linalg.norm(above[near].mean(axis=1) - model.rest_positions, axis=1)
+    return np.clip(offset / np.maximum(0.75 * distance.mean(axis=1), 1e-12), 0.0, 1.0)
+
+
+def unit(vectors: Floats) -> Floats:
+    """Vectors (..., 3) made of length 1; those of length 0 stay."""
+    length = np.sqrt(np.einsum("...i,...i->...", vectors, vectors))
+    return vectors / np.maximum(length, 1e-12)[..., None]
+
+
+def _at(directions: list[Floats], hops: Floats) -> Floats:
+    """Directions between those at 0, 1 and 2 neighbours' distance, at ``hops`` neighbours' distance, (n,)."""
+    weights = (np.maximum(1 - np.abs(hops - k), 0.0) for k in range(2))
+    first, second = weights
+    third = 1 - first - second
+    return unit(first[:, None] * directions[0] + second[:, None] * directions[1] + third[:, None] * directions[2])
+
+
+def _mean_over(rows: Ints, columns: Ints, weights: Floats, n: int) -> csr_array:
+    """The operator that gives each particle the weighted mean of its neighbours; a row of zeros where it has none."""
+    matrix = csr_array((weights, (rows, columns)), shape=(n, n))
+    total = np.asarray(matrix.sum(axis=1)).ravel()
+    return csr_array(diags_array(np.divide(1.0, total, out=np.zeros(n), where=total > 0)) @ matrix)
+
+
+def _across(directions: Floats) -> Floats:
+    """Some unit vector normal to each direction, (n, 3)."""
+    axis = np.eye(3)[np.argmin(np.abs(directions), axis=1)]
+    return unit(np.cross(directions, axis))
