@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
+from .bending import Bending
 from .body import Body
 from .contact import Touching, repulsion, stop_at_body, stop_at_reach, touching
 from .direction import updated_directions
@@ -37,6 +35,7 @@ class Dynamics:
         self.model = model
         self.body = body
         self.springs = Springs(model)
+        self.bending = Bending(model)
         self.neighbours = NeighbourList(2.0 * model.smoothing_length)
         self.timer = Timer()
 
@@ -45,27 +44,23 @@ class Dynamics:
         now: Circumstances,
         positions: Floats,
         velocities: Floats,
-        damped_velocities: Floats,
         directions: Floats,
         touch: Touching,
         dt: float,
     ) -> Floats:
         """Everything but springs and air friction [m/s^2], (n, 3): what an explicit step can carry.
 
-        velocities [m/s] decide Coriolis, damped_velocities collision and friction of hair; (n, 3) as positions [m] and
-        directions. dt: the step to come [s].
+        positions [m], velocities [m/s] and directions: (n, 3). dt: the step to come [s].
         """
         acceleration = apparent_acceleration(now.frame, positions, velocities, now.settings.gravity)
-        acceleration += repulsion(touch)
+        acceleration += repulsion(touch) + self.bending.acceleration(positions, now.settings)
         if now.outside is not None:
             acceleration += now.outside / self.model.mass[:, None]
         if now.settings.interactions:
             with self.timer.stage("neighbours"):
                 pairs = self.neighbours.pairs(positions)
             with self.timer.stage("interactions"):
-                force, _ = hair_hair_forces(
-                    self.model, now.settings, positions, damped_velocities, directions, pairs, dt
-                )
+                force, _ = hair_hair_forces(self.model, now.settings, positions, velocities, directions, pairs, dt)
                 acceleration += force / self.model.mass[:, None]
         return acceleration
 
@@ -81,16 +76,16 @@ class Dynamics:
 
     def hold(
         self, start: Floats, velocities: Floats, touch: Touching, distance: Floats, friction: float, dt: float
-    ) -> tuple[Floats, NDArray[np.bool_]]:
-        """Velocities [m/s] after body and reach have had their say, (n, 3), and whom they held, (n,).
+    ) -> Floats:
+        """Velocities [m/s] after body and reach have had their say, (n, 3).
 
         A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s].
         """
         with self.timer.stage("contact"):
-            velocities, at_reach = stop_at_reach(self.model, start, velocities, dt)
-            velocities, at_body = stop_at_body(velocities, touch, distance, friction, dt)
+            velocities = stop_at_reach(self.model, start, velocities, dt)
+            velocities = stop_at_body(velocities, touch, distance, friction, dt)
         velocities[self.model.fixed] = 0.0
-        return velocities, at_reach | at_body
+        return velocities
 
     def turn(self, positions: Floats, directions: Floats, settings: DynamicsSettings) -> Floats:
         """Hair directions at new positions (eq. 15), unit, (n, 3)."""

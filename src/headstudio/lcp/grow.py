@@ -60,6 +60,7 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
         spacing=spacing,
         rest_density=density(positions, mass, find_pairs(positions, 2 * hair_smoothing), hair_smoothing),
         rest_clearance=body.clearance(positions),
+        bending_length=settings.bending_length,
     )
 
 

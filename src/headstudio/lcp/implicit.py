@@ -5,12 +5,13 @@ alike and g = 2/3 of the step,
 
     x = x^ + g v,     M (v - v^) = g f(x, v),
 
-is solved by one Newton step from the velocities that the last two steps foretell:
+is solved by one Newton step from the present velocities, with the forces that they lead to:
 
-    (M (1 + g c) + g D + g^2 K) dv = M v^ + g f - M (1 + g c) v,
+    (M (1 + g c + g^2 kappa) + g D + g^2 K) dv = M (v^ - (1 + g c) v) + g f(x^ + g v, v),
 
-K and D being the stiffness and damping of the springs, c air friction. The matrix is symmetric and positive definite
-(compressed links count only along themselves), its pattern never changes, and conjugate gradients solve it.
+K and D being the stiffness and damping of the springs, kappa that of bending, c air friction. The matrix is symmetric
+and positive definite (compressed links count only along themselves), its pattern never changes, and conjugate gradients
+solve it.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from scipy import sparse
 from ..head.mesh import Floats
 from .dynamics import Circumstances, Dynamics
 from .model import HairState
+from .settings import DynamicsSettings
 from .springs import LinkState
 
 _TOLERANCE = 1e-3
@@ -41,32 +43,55 @@ class ImplicitSolver:
         model = dynamics.model
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
-        x_before, v_before = state.before or (x - dt * v, v)
+        x_before, v_before = state.before or self._earlier(state, now, dt)
         x_hat, v_hat = (4.0 * x - x_before) / 3.0, (4.0 * v - v_before) / 3.0
         g = 2.0 * dt / 3.0
 
-        foretold = 2.0 * v - v_before
-        ahead = x_hat + g * foretold
+        ahead = x_hat + g * v
         touch = dynamics.touch(ahead, now.frame)
-        soft = dynamics.soft_acceleration(now, ahead, foretold, v, state.directions, touch, dt)
+        soft = dynamics.soft_acceleration(now, ahead, v, state.directions, touch, dt)
         links = dynamics.links(ahead, settings)
-        force = mass * soft + dynamics.springs.forces(links, foretold, settings)
-        inertia = 1.0 + g * settings.air_friction
-        right = mass * v_hat + g * force - mass * inertia * foretold
+        force = mass * soft + dynamics.springs.forces(links, v, settings)
+        right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         with dynamics.timer.stage("solve"):
-            self._matrix.update(links, settings, g, inertia)
+            inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
+            self._matrix.update(links, settings, g, inertia * model.mass)
             change = self._matrix.solve(right)
             self.iterations += self._matrix.iterations
 
-        v_new = foretold + change
+        free = v + change
         # The distance of x^ on the plane that was seen from ``ahead``.
-        distance = touch.distance - g * np.einsum("ij,ij->i", foretold, touch.normals)
-        v_new, held = dynamics.hold(x_hat, v_new, touch, distance, settings.body_friction, g)
+        distance = touch.distance - g * np.einsum("ij,ij->i", v, touch.normals)
+        v_new = dynamics.hold(x_hat, free, touch, distance, settings.body_friction, g)
         x_new = x_hat + g * v_new
         directions = dynamics.turn(x_new, state.directions, settings)
-        # A held particle has a kink in its path: it looks back on a straight one, or it would bounce.
-        before = (np.where(held[:, None], x_new - dt * v_new, x), np.where(held[:, None], v_new, v))
+        # A held particle has a kink in its path. Where it was held it looks back on a straight one, or it would bounce.
+        kink = _unit(v_new - free)
+        before = (x + _along(kink, x_new - dt * v_new - x), v + _along(kink, v_new - v))
         return HairState(x_new, v_new, directions, state.time + dt, before)
+
+    def _earlier(self, state: HairState, now: Circumstances, dt: float) -> tuple[Floats, Floats]:
+        """A position and velocity for the step before the first, such that the first is of second order, too."""
+        dynamics, settings = self.dynamics, now.settings
+        x, v = state.positions, state.velocities
+        touch = dynamics.touch(x, now.frame)
+        acceleration = dynamics.soft_acceleration(now, x, v, state.directions, touch, dt)
+        springs = dynamics.springs.forces(dynamics.links(x, settings), v, settings)
+        acceleration += springs / dynamics.model.mass[:, None] - settings.air_friction * v
+        held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, settings.body_friction, dt)
+        acceleration = (held - v) / dt
+        return x - dt * v + 0.5 * dt * dt * acceleration, v - dt * acceleration
+
+
+def _unit(a: Floats) -> Floats:
+    """Rows of ``a`` as unit vectors, zero where they are zero, (n, 3)."""
+    length = np.linalg.norm(a, axis=1, keepdims=True)
+    return np.divide(a, length, out=np.zeros_like(a), where=length > 0)
+
+
+def _along(unit: Floats, a: Floats) -> Floats:
+    """The part of ``a`` along ``unit``, row by row, (n, 3)."""
+    return np.einsum("ij,ij->i", unit, a)[:, None] * unit
 
 
 class _SpringMatrix:
@@ -99,11 +124,11 @@ class _SpringMatrix:
         self._blocks = self._matrix.data
         self.iterations = 0
 
-    def update(self, links: LinkState, settings: object, g: float, inertia: float) -> None:
-        """Fill the blocks for the links at one instant."""
-        springs, model = self.springs, self.model
-        pull, stiffness = springs.tension(links, settings.bending_scale)  # type: ignore[attr-defined]
-        damping = springs.damping(stiffness, settings.spring_damping)  # type: ignore[attr-defined]
+    def update(self, links: LinkState, settings: DynamicsSettings, g: float, inertia: Floats) -> None:
+        """Fill the blocks for the links at one instant. inertia: what stands on the diagonal besides them [kg], (n,)."""
+        springs = self.springs
+        pull, stiffness = springs.tension(links, settings.bending_scale)
+        damping = springs.damping(stiffness, settings.spring_damping)
         # A pulled link also resists turning; a pushed one would help it, and is left out to keep the matrix definite.
         turning = g * g * np.maximum(pull, 0.0) / np.maximum(links.length, 1e-9)
         along = g * g * stiffness + g * damping - turning
@@ -113,7 +138,7 @@ class _SpringMatrix:
         self._blocks[self._upper] = -block[self.inner]
         self._blocks[self._lower] = -block[self.inner]
         diagonal = springs.sum_at_ends(flat, flat)[self.free].reshape(-1, 3, 3)
-        diagonal[:, [0, 1, 2], [0, 1, 2]] += (inertia * model.mass[self.free])[:, None]
+        diagonal[:, [0, 1, 2], [0, 1, 2]] += inertia[self.free, None]
         self._blocks[self._diagonal] = diagonal
         self._inverse = np.linalg.inv(diagonal)
 

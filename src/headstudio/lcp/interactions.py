@@ -60,7 +60,7 @@ def _pressure(
     # Sound of speed sqrt(k_a) must not cross more than a smoothing length in a step.
     gain = settings.pressure / (1.0 + settings.pressure * (dt / h) ** 2)
     pressure = gain * np.maximum(density - rest, -_COHESION * rest)
-    over_square = pressure / density**2
+    over_square: Floats = pressure / density**2
     both = over_square[i] + over_square[j]
     closeness = kernel(distance, h) / kernel(np.array(model.spacing), h)
     pulling = np.maximum(-both, 0.0)

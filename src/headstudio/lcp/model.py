@@ -24,7 +24,7 @@ class HairModel:
 
     smoothing_length_links is h_1 and smoothing_length is h_2 of the paper [m]; spacing is the mean distance of
     neighbours [m]. rest_density: density in the initial state [kg/m^3], (n,). rest_clearance: distance to the body in the
-    initial state [m], infinite far from it, (n,).
+    initial state [m], infinite far from it, (n,). bending_length: of the beams that gave the initial state [m].
     """
 
     coordinates: Floats
@@ -44,6 +44,7 @@ class HairModel:
     spacing: float
     rest_density: Floats
     rest_clearance: Floats
+    bending_length: float
 
     @property
     def count(self) -> int:

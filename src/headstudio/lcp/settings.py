@@ -53,7 +53,7 @@ class DynamicsSettings:
     """How hair moves: Bando et al. 2006, sections 3.3 to 3.5."""
 
     elastic_modulus: float = number(
-        1e6,
+        5e5,
         "Elastic modulus",
         "Pa",
         1e4,
@@ -71,8 +71,17 @@ class DynamicsSettings:
         "Part of a spring's force that is left in compression (thesis 3.3.2): 0 is limp, 1 a rubber block.",
         live=True,
     )
+    hold: float = number(
+        1.0,
+        "Hold",
+        "",
+        0.0,
+        20.0,
+        "How firmly hair keeps the shape it grew in, from the root outward: 0 is free, 1 its own stiffness, 20 hairspray.",
+        live=True,
+    )
     spring_damping: float = number(
-        0.3, "Spring damping", "", 0.0, 2.0, "Damping of the springs as a fraction of critical.", live=True
+        1.0, "Spring damping", "", 0.0, 2.0, "Damping of the springs as a fraction of critical.", live=True
     )
     air_friction: float = number(
         0.8, "Air friction", "1/s", 0.0, 20.0, "Rate at which still air slows hair down.", live=True
@@ -82,11 +91,11 @@ class DynamicsSettings:
         True, "Hair-hair interactions", "Attraction, repulsion, collision and friction.", live=True
     )
     pressure: float = number(
-        1.0,
+        0.1,
         "Attraction/repulsion",
         "m^2/s^2",
         0.0,
-        10.0,
+        2.0,
         "Pressure gain k_a that keeps the average density (eq. 16).",
         live=True,
     )
