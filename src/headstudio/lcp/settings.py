@@ -118,7 +118,7 @@ class DynamicsSettings:
         live=True,
     )
     friction: float = number(
-        0.2,
+        3.0,
         "Friction",
         "",
         0.0,
