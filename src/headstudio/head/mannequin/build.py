@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import igl
@@ -10,6 +11,7 @@ import trimesh
 
 from ..head import Head, Landmarks, Part
 from ..mesh import Floats, TriangleMesh
+from .anthropometry import measured
 from .eyes import EYE, EYE_AXIS, EYE_RADIUS
 from .skin import charted, mirrored, sculpted_half
 
@@ -27,20 +29,28 @@ def mannequin() -> Head:
     vertices, faces = sculpted_half()
     vertices, faces, chart = mirrored(vertices, faces, charted(vertices, faces))
     skin = TriangleMesh(vertices * _MM, faces, chart)
-    return Head(
+    head = Head(
         name="mannequin",
         skin=skin,
         head_weight=_head_weight(vertices),
         landmarks=_landmarks(skin),
         parts=(_eye(EYE, EYE_AXIS), _eye(EYE * _MIRROR, EYE_AXIS * _MIRROR)),
-        notes=("built-in mannequin, after the adult means of ANSUR II and of the NIOSH survey of 2003",),
+    )
+    return replace(head, notes=(_description(head),))
+
+
+def _description(head: Head) -> str:
+    size = {name: f"{1e3 * value:.0f} mm" for name, value in measured(head).items()}
+    return (
+        f"built-in mannequin after adult means of ANSUR II and NIOSH 2003: head {size['head_length']} long and "
+        f"{size['head_breadth']} broad, pupils {size['interpupillary']} apart"
     )
 
 
 def _head_weight(vertices: Floats) -> Floats:
     """1 above the line from chin to nape, 0 below the collar, smooth on the neck; vertices in mm."""
     along = vertices[:, 1] + 0.35 * vertices[:, 2]
-    t = np.clip((along + 128.0) / 80.0, 0.0, 1.0)
+    t = np.clip((along + 128.0) / 74.0, 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
 
 
@@ -53,7 +63,7 @@ def _landmarks(skin: TriangleMesh) -> Landmarks:
         line = line[(line[:, 1] > low) & (line[:, 1] < high)]
         return line[np.argmax(line @ direction)]
 
-    sides = np.array([(74.0, 20.0, 0.0), (24.7, -29.0, 92.0)]) * _MM
+    sides = np.array([(74.0, 20.0, 0.0), (24.5, -29.2, 96.5)]) * _MM
     _, _, (tragus, mouth) = igl.point_mesh_squared_distance(sides, skin.vertices, skin.faces)
     pupil = (EYE + EYE_RADIUS * EYE_AXIS) * _MM
     return Landmarks(

@@ -22,7 +22,7 @@ COLUMN = Lines(
 )
 STERNOCLEIDOMASTOID = Tube([(55, 2, -24), (47, -50, -4), (30, -100, 9), (12, -144, 10)], [8, 10, 8, 5])
 TRAPEZIUS = Tube([(18, -50, -58), (52, -100, -60), (104, -136, -54), (160, -156, -46)], [14, 22, 26, 30])
-CLAVICLE = Tube([(10, -150, 14), (60, -150, 16), (108, -142, -6), (152, -140, -32)], [5, 4, 4, 5])
+CLAVICLE = Tube([(10, -150, 13), (60, -151, 13), (108, -145, -9), (152, -142, -34)], [5, 5, 5, 6])
 
 
 def _muscle(p: Floats, body: Floats) -> Floats:
@@ -32,7 +32,7 @@ def _muscle(p: Floats, body: Floats) -> Floats:
 def _shoulders(p: Floats, body: Floats) -> Floats:
     chest = join(ellipsoid(p, (0, -240, -38), (168, 110, 84)), TRAPEZIUS(p), 60)
     chest = join(chest, ellipsoid(p, (158, -188, -42), (38, 56, 46)), 44)  # deltoid
-    chest = join(chest, CLAVICLE(p), 26)
+    chest = join(chest, CLAVICLE(p), 30)
     chest = carve(chest, ellipsoid(p, (0, -144, 28), (8, 12, 16)), 22)  # notch above the breastbone
     chest = meet(chest, ellipsoid(p, (0, -130, -30), (204, 140, 150)), 30)
     return join(body, chest, 34)

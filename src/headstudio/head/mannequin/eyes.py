@@ -12,8 +12,8 @@ EYE_RADIUS = 12.2
 EYE_AXIS = np.array([0.0, 0.0, 1.0])
 
 INNER, OUTER = np.array([17.0, 36.2]), np.array([46.5, 38.4])  # corners of the lids, x and y
-RISE, FALL = 4.9, 4.0  # of the upper and the lower lid over the line between the corners
-LID = 2.3  # thickness of the lids over the ball
+RISE, FALL = 4.8, 3.9  # of the upper and the lower lid over the line between the corners
+LID = 2.5  # thickness of the lids over the ball
 CREASE = Tube([(15, 39, 91), (23, 45.6, 91.5), (33, 46.9, 91.5), (42, 44.8, 87), (51, 39, 80)], [1.5] * 5)
 
 
@@ -36,7 +36,7 @@ def _shape(p: Floats, head: Floats) -> Floats:
     head = join(head, ellipsoid(p, EYE, (EYE_RADIUS + LID + 2.5, EYE_RADIUS + LID, EYE_RADIUS + LID)), 8)  # lids
     head = carve(head, CREASE(p), 3.0)
     # The floor of the slit lies under the ball, and before it only in the corners.
-    return carve(head, np.maximum(_almond(p), EYE[2] + 6.2 - p[2]), 2.2)
+    return carve(head, np.maximum(_almond(p), EYE[2] + 6.2 - p[2]), 3.0)
 
 
 def eyes(p: Floats, head: Floats) -> Floats:

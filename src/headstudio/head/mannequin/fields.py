@@ -55,7 +55,7 @@ class Tube:
         columns = np.column_stack([np.asarray(knots, dtype=float), np.asarray(radii, dtype=float)])
         self._path = CubicSpline(np.arange(len(columns)), columns)
         self._end = len(columns) - 1.0
-        self._starts = np.linspace(0.0, self._end, 6 * len(columns))
+        self._starts = np.linspace(0.0, self._end, 3 * len(columns))
         self._samples = self._path(self._starts)[:, :3]
 
     def __call__(self, p: Floats) -> Floats:

@@ -22,15 +22,15 @@ PARTING = Tube(
         (22, -29.1, 98.4),
         (27, -29.6, 95.5),
     ],
-    [1.3, 1.3, 1.3, 1.2, 0.9, 0.3],
+    [1.3, 1.3, 1.3, 1.3, 1.2, 1.0],
 )
 
 
 def _shape(p: Floats, head: Floats) -> Floats:
-    head = join(head, join(UPPER_LIP(p), LOWER_LIP(p), 2.0), 5)
+    head = join(head, join(UPPER_LIP(p), LOWER_LIP(p), 2.0), 6)
     head = carve(head, PARTING(p), 3.0)
-    head = carve(head, cone(p, (0, -7, 111), (0, -21, 114.8), 2.6, 4.2), 7)  # philtrum
-    return carve(head, ellipsoid(p, (0, -44.5, 106), (16, 4, 6)), 9)  # fold above the chin
+    head = carve(head, cone(p, (0, -9, 113.0), (0, -21, 114.6), 2.6, 4.4), 8)  # philtrum
+    return carve(head, ellipsoid(p, (0, -45, 106), (17, 4.5, 5.5)), 12)  # fold above the chin
 
 
 def mouth(p: Floats, head: Floats) -> Floats:

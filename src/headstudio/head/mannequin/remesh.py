@@ -55,10 +55,10 @@ def remesh(vertices: Floats, faces: Ints, surface: Surface, rounds: int) -> tupl
             vertices, faces = _collapse(vertices, faces, surface)
         vertices, normals = surface.onto(vertices)
         for _ in range(4):
-            faces = _flip(vertices, faces)
+            faces = _flip(vertices, faces, surface)
         vertices, _ = surface.onto(_relaxed(vertices, faces, normals, surface))
     for _ in range(4):
-        faces = _flip(vertices, faces)
+        faces = _flip(vertices, faces, surface)
     return vertices, faces
 
 
@@ -81,6 +81,11 @@ def _first_in_faces(urgency: Floats, edges: _Edges) -> Bools:
     return (urgency > 0) & (urgency == best[one]) & (edges.border | (urgency == best[two]))
 
 
+def _chords(planes: Bools, ends: Ints, border: Bools) -> Bools:
+    """Inner edges with both ends in one plane: their triangles could fold flat into it."""
+    return (planes[ends[:, 0]] & planes[ends[:, 1]]).any(axis=1) & ~border
+
+
 def _relative_length(vertices: Floats, ends: Ints, surface: Surface) -> Floats:
     a, b = vertices[ends[:, 0]], vertices[ends[:, 1]]
     return np.linalg.norm(a - b, axis=1) / surface.size((a + b) / 2.0)
@@ -89,7 +94,8 @@ def _relative_length(vertices: Floats, ends: Ints, surface: Surface) -> Floats:
 def _split(vertices: Floats, faces: Ints, surface: Surface) -> tuple[Floats, Ints]:
     edges = _edges(faces)
     length = _relative_length(vertices, edges.ends, surface)
-    chosen = np.flatnonzero(_first_in_faces(np.where(length > _LONG, length, 0.0), edges))
+    long = (length > _LONG) & ~_chords(surface.planes(vertices), edges.ends, edges.border)
+    chosen = np.flatnonzero(_first_in_faces(np.where(long, length, 0.0), edges))
     corners, middle = edges.corners[chosen], len(vertices) + np.arange(len(chosen))
     inner = corners[:, 1] >= 0
     side = np.concatenate([corners[:, 0], corners[inner, 1]])
@@ -111,7 +117,7 @@ def _collapse(vertices: Floats, faces: Ints, surface: Surface) -> tuple[Floats, 
     swap = planes[gone].sum(axis=1) > planes[kept].sum(axis=1)
     gone, kept = np.where(swap, kept, gone), np.where(swap, gone, kept)
     may = (planes[gone] <= planes[kept]).all(axis=1) & (edges.border[short] | ~planes[gone].any(axis=1))
-    may &= _shared_neighbours(edges.ends, gone, kept, len(vertices)) == np.where(edges.border[short], 1, 2)
+    may &= _keeps_a_surface(edges, gone, kept, edges.border[short], np.asarray(planes.any(axis=1)))
     short, gone, kept = short[may], gone[may], kept[may]
     alone = _far_apart(length[short], gone, kept, edges.ends, len(vertices))
     gone, kept = gone[alone], kept[alone]
@@ -133,11 +139,15 @@ def _collapse(vertices: Floats, faces: Ints, surface: Surface) -> tuple[Floats, 
     return moved[used], index.reshape(-1, 3)
 
 
-def _shared_neighbours(ends: Ints, a: Ints, b: Ints, count: int) -> Ints:
-    """How many vertices are joined to both a and b: two inside a manifold, one on its border, where they may merge."""
-    both = np.concatenate([ends, ends[:, ::-1]])
-    joined = csr_array(coo_array((np.ones(len(both)), (both[:, 0], both[:, 1])), shape=(count, count)))
-    return np.asarray(joined[a].multiply(joined[b]).sum(axis=1)).astype(np.int64).ravel()
+def _keeps_a_surface(edges: _Edges, gone: Ints, kept: Ints, border: Bools, in_plane: Bools) -> Bools:
+    """Which pairs may merge: two neighbours in common, on the border one, and no new edge across the border."""
+    both = np.concatenate([edges.ends, edges.ends[:, ::-1]])
+    size = (len(in_plane),) * 2
+    joined = csr_array(coo_array((np.ones(len(both)), (both[:, 0], both[:, 1])), shape=size))
+    shared = joined[gone].multiply(joined[kept])
+    rim = in_plane.astype(float)
+    stray = joined[gone] @ rim - shared @ rim > in_plane[kept]
+    return (shared.sum(axis=1) == np.where(border, 1, 2)) & ~(stray & in_plane[kept] & ~border)
 
 
 def _far_apart(urgency: Floats, a: Ints, b: Ints, ends: Ints, count: int) -> Bools:
@@ -166,8 +176,8 @@ def _normals(vertices: Floats, faces: Ints) -> Floats:
     return np.cross(b - a, c - a)
 
 
-def _flip(vertices: Floats, faces: Ints) -> Ints:
-    """Flip edges whose opposite angles sum to more than half a turn."""
+def _flip(vertices: Floats, faces: Ints, surface: Surface) -> Ints:
+    """Flip edges whose opposite angles sum to more than half a turn, and chords of the border."""
     edges = _edges(faces)
     corners = vertices[faces]
     to_next, to_last = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
@@ -175,13 +185,16 @@ def _flip(vertices: Floats, faces: Ints) -> Ints:
     cotangent = np.einsum("ijk,ijk->ij", to_next, to_last) / np.maximum(area, 1e-12)[:, None]
     cotangent = cotangent.ravel()
     excess = -(cotangent[edges.corners[:, 0]] + cotangent[edges.corners[:, 1]])
+    planes = surface.planes(vertices)
+    excess[_chords(planes, edges.ends, edges.border)] = np.inf
     chosen = np.flatnonzero(_first_in_faces(np.where(edges.border | (excess < 1e-3), 0.0, excess), edges))
     (one, i), (two, j) = (divmod(edges.corners[chosen, side], 3) for side in (0, 1))
     c, a, b = (faces[one, (i + turn) % 3] for turn in range(3))
     d = faces[two, j]
     count = len(vertices)
     key = np.minimum(c, d) * count + np.maximum(c, d)
-    fresh = ~np.isin(key, edges.ends[:, 0] * count + edges.ends[:, 1])
+    fresh = ~(planes[c] & planes[d]).any(axis=1)
+    fresh &= ~np.isin(key, edges.ends[:, 0] * count + edges.ends[:, 1])
     fresh &= np.bincount(np.unique(key, return_index=True)[1], minlength=len(key)).astype(bool)
     new_one, new_two = np.stack([c, a, d], axis=1), np.stack([c, d, b], axis=1)
     old = _normals(vertices, faces[one]) + _normals(vertices, faces[two])

@@ -20,7 +20,8 @@ def sculpted_half() -> tuple[Floats, Ints]:
     """Vertices [mm], shape (n, 3), and faces, shape (m, 3), of the left half, open in the middle plane and the cut."""
     vertices, faces = polygonise(sculpture, (0.0, CUT, -160.0), (220.0, 165.0, 150.0), 4.5)
     vertices, _ = _onto_skin(vertices)
-    return remesh(vertices, faces, Surface(_onto_skin, edge_length, _planes), rounds=5)
+    vertices, faces = remesh(vertices, faces, Surface(_onto_skin, edge_length, _planes), rounds=5)
+    return _onto_skin(_onto_skin(vertices)[0])[0], faces
 
 
 def _planes(points: Floats) -> np.ndarray:
@@ -28,16 +29,15 @@ def _planes(points: Floats) -> np.ndarray:
 
 
 def _onto_skin(points: Floats) -> tuple[Floats, Floats]:
-    """Two Newton steps to the skin and the unit normals; points of the middle plane and of the cut stay in them."""
+    """One Newton step to the skin, and the unit normals; points of the middle plane and of the cut stay in them."""
     planes = _planes(points)
     step = 0.02
-    for _ in range(2):
-        value = sculpture(points)
-        slope = np.stack([sculpture(points + step * axis) - value for axis in np.eye(3)], axis=1) / step
-        slope[:, :2][planes] = 0.0
-        square = np.maximum(np.einsum("ij,ij->i", slope, slope), 0.2)
-        points = points - np.clip((value / square)[:, None] * slope, -1.0, 1.0)
-        points[:, 0] = np.where(planes[:, 0], 0.0, np.maximum(points[:, 0], 1e-3))
+    value = sculpture(points)
+    slope = np.stack([sculpture(points + step * axis) - value for axis in np.eye(3)], axis=1) / step
+    slope[:, :2][planes] = 0.0
+    square = np.maximum(np.einsum("ij,ij->i", slope, slope), 0.05)
+    points = points - np.clip((value / square)[:, None] * slope, -1.0, 1.0)
+    points[:, 0] = np.where(planes[:, 0], 0.0, np.maximum(points[:, 0], 1e-3))
     return points, slope / np.linalg.norm(slope, axis=1, keepdims=True)
 
 
