@@ -217,3 +217,14 @@ def test_landmarks_upside_down_are_refused():
     upside_down = dataclasses.replace(head.landmarks, crown=-head.landmarks.crown)
     with pytest.raises(HeadError, match="landmarks"):
         default_curves(dataclasses.replace(head, landmarks=upside_down))
+
+
+def test_a_curve_led_through_an_ear_says_what_to_do():
+    surface = plate()
+    # A fin as sharp as the rim of an ear, across the way of the curve.
+    vertices = surface.mesh.vertices.copy()
+    fin = np.isclose(vertices[:, 0], 0.5) & (np.abs(vertices[:, 1] - 0.5) < 0.4)
+    vertices[fin] += [-0.3, 0, 0.02]
+    folded = ShadedMesh(TriangleMesh(vertices, surface.mesh.faces), surface.normals)
+    with pytest.raises(HeadError, match="gets lost in a fold"):
+        cut_patch(folded, polygon_sides(folded, SQUARES["through triangles"]))

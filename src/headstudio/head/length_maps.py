@@ -15,7 +15,7 @@ def preset(name: str) -> GrayImage:
     """The named length map, 256 x 256: one of LENGTH_MAPS."""
     centre = (np.arange(SIZE) + 0.5) / SIZE
     u, v = np.meshgrid(centre, centre)
-    return GrayImage(np.clip(_PRESETS[name](u, v), 0.0, 1.0).astype(np.float32))
+    return GrayImage(_PRESETS[name](u, v).astype(np.float32))
 
 
 def sample(image: GrayImage, uv: Floats) -> Floats:

@@ -17,6 +17,7 @@ _SNAP_KNOT = 0.08
 _SNAP_CROSSING = 0.03
 _LEFT_OUT = -1
 _CROSSING = "the curves around the scalp cross or touch each other"
+_LOST = "a curve around the scalp gets lost in a fold of the skin; lead it around ears and mouth"
 
 
 def insert_knots(mesh: SplittableMesh, surface_faces: Ints, knots: SurfacePoints, corners: Sequence[int]) -> list[int]:
@@ -88,7 +89,7 @@ def trace_loop(mesh: SplittableMesh, stops: Sequence[int], corners: Sequence[int
             else:
                 raise HeadError(_CROSSING)
         if not steps_left:
-            raise HeadError("a curve around the scalp cannot be followed on the surface")
+            raise HeadError(_LOST)
     return loop
 
 
@@ -130,8 +131,10 @@ def _over_crease(mesh: SplittableMesh, vertex: int, target: int, before: Mapping
     """Where to go when no triangle lies ahead, as on a sharp crease: the free neighbour that is nearest to the target."""
     starts, ends = set(mesh.opposite[vertex]), set(mesh.opposite[vertex].values())
     free = [b for b in starts if b not in before]
-    if starts != ends or not free:
+    if starts != ends:
         raise HeadError("a curve around the scalp runs over the border of the skin")
+    if not free:
+        raise HeadError(_LOST)
     distance = np.linalg.norm([mesh.positions[b] - mesh.positions[target] for b in free], axis=1)
     return free[int(np.argmin(distance))]
 
