@@ -121,9 +121,9 @@ def test_lookups_are_quick_both_ways():
         lookup(argument[:1])
         spent = []
         for _ in range(3):
-            start = time.perf_counter()
+            start = time.process_time()
             lookup(argument)
-            spent.append(time.perf_counter() - start)
+            spent.append(time.process_time() - start)
         assert min(spent) < 0.7
 
 
