@@ -111,7 +111,7 @@ def _mouth_line(across: Floats, height: Floats, depth: Floats) -> float:
 
     In profile the lips stand out above and below the line where they meet: it is the deepest notch between two bulges.
     """
-    near = (np.abs(across) < 0.15) & (np.abs(height) < 0.7)
+    near = (np.abs(across) < 0.15) & (np.abs(height) < 0.7) & (np.abs(depth) < 1.5)
     bins = np.linspace(-0.7, 0.7, 22)
     profile = np.full(len(bins), -np.inf)
     np.maximum.at(profile, np.clip(np.searchsorted(bins, height[near]), 0, len(bins) - 1), depth[near])
