@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .mesh import Floats, TriangleMesh
 from .profile import seen_from
@@ -16,28 +17,43 @@ _EDGE = 0.04
 # Heights an ear may have, and how far in front of its rear edge the tragus lies.
 _EAR_HEIGHTS = (0.15, 0.55)
 _TRAGUS_BEFORE_EDGE = 0.125
+# Two ears farther apart than this, seen from the side, are not both ears.
+_UNEVEN = 0.12
 
 
-def find_tragus(skin: TriangleMesh, expected: Floats, height: float) -> Floats:
-    """The point in front of the ear hole [m], shape (3,): half way up the ear, before its rear edge.
+def find_tragi(skin: TriangleMesh, expected: Floats, height: float) -> tuple[Floats, Floats]:
+    """The points in front of the ear holes, left and right [m], shape (3,): half way up the ears, before their rear edge.
 
-    skin: an upright head mirrored at x = 0. expected: where it should be by the proportions of the head, shape (3,); x
-    tells the side. That is also the answer, brought onto the skin, for a head without an ear. height: of the head [m].
+    skin: an upright head mirrored at x = 0. expected: (y, z) where they should be by the proportions of the head, shape
+    (2,). A side whose ear cannot be made out takes the height and depth of the other; without any ear the answer is
+    what was expected, brought onto the skin. height: of the head [m].
     """
-    side = np.sign(expected[0])
-    point = expected.copy()
+    found = [_tragus(skin, side, expected, height) for side in (1.0, -1.0)]
+    sure = [place for place in found if place is not None]
+    if len(sure) == 2 and np.linalg.norm(sure[0] - sure[1]) > _UNEVEN * height:
+        sure = [min(sure, key=lambda place: float(np.linalg.norm(place - expected)))]
+        found = [None, None]
+    other = sure[0] if sure else expected
+    places = [other if place is None else place for place in found]
+    left, right = (
+        np.array([seen_from(skin, 0, side, place[None])[0], *place]) for side, place in zip((1.0, -1.0), places)
+    )
+    return left, right
+
+
+def _tragus(skin: TriangleMesh, side: float, expected: Floats, height: float) -> Floats | None:
+    """Where (y, z) the tragus of one side lies by the ear there, shape (2,), or None without an ear."""
     ear = _ear(skin, side, expected, height)
-    if ear is not None:
-        low, high, rear = ear
-        point[1:] = 0.5 * (low + high), rear + _TRAGUS_BEFORE_EDGE * height
-    point[0] = seen_from(skin, 0, side, point[None, 1:])[0]
-    return point
+    if ear is None:
+        return None
+    low, high, rear = ear
+    return np.array([0.5 * (low + high), rear + _TRAGUS_BEFORE_EDGE * height])
 
 
 def _ear(skin: TriangleMesh, side: float, expected: Floats, height: float) -> tuple[float, float, float] | None:
     """The lower and upper end of the ear and its rear edge (y, y, z) [m], or None."""
     cell = _CELL * height
-    start = expected[1:] + np.array([-0.33, -0.24]) * height
+    start = expected + np.array([-0.33, -0.24]) * height
     reach = _side_view(skin, side, start, cell, (56, 28), height)
     # The rear edge: from one cell to the next but one, going forward, the surface jumps outward.
     jump = np.nan_to_num(reach[:, 2:] - reach[:, :-2], nan=0.0)
@@ -68,7 +84,7 @@ def _side_view(
     return np.where(np.isfinite(grid), grid, np.nan)
 
 
-def _longest_run(flags: np.ndarray) -> slice:
+def _longest_run(flags: NDArray[np.bool_]) -> slice:
     """The longest run of true values; gaps of up to two are bridged."""
     padded = np.concatenate([[False], flags, [False]])
     bridged = padded.copy()

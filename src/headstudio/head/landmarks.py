@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .ears import find_tragus
+from .ears import find_tragi
 from .head import Landmarks
 from .mesh import Floats, TriangleMesh
 from .profile import Profile, midline, seen_from
@@ -44,8 +44,8 @@ def find_landmarks(skin: TriangleMesh, height: float, eyes: tuple[Floats, Floats
     if eyes is None:
         eyes = _pair(skin, _EYE_SPREAD * height, nasion[1] - 0.008 * height, height)
     mouth = _pair(skin, _MOUTH_SPREAD * height, _mouth_level(profile, nose, chin), height)
-    expected = [nose[1] + 0.045 * height, nasion[2] - _TRAGUS_DEPTH * (nasion[2] - occiput[2])]
-    tragus = [find_tragus(skin, np.array([side * 0.3 * height, *expected]), height) for side in (1.0, -1.0)]
+    expected = np.array([nose[1] + 0.045 * height, nasion[2] - _TRAGUS_DEPTH * (nasion[2] - occiput[2])])
+    tragi = find_tragi(skin, expected, height)
     return Landmarks(
         crown=_crown(profile, height),
         hairline=hairline,
@@ -55,8 +55,8 @@ def find_landmarks(skin: TriangleMesh, height: float, eyes: tuple[Floats, Floats
         chin=chin,
         nape=nape,
         occiput=occiput,
-        left_tragus=tragus[0],
-        right_tragus=tragus[1],
+        left_tragus=tragi[0],
+        right_tragus=tragi[1],
         left_eye=eyes[0],
         right_eye=eyes[1],
         mouth_left=mouth[0],

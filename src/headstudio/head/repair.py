@@ -143,8 +143,8 @@ def wound_outward(mesh: TriangleMesh) -> tuple[TriangleMesh, int]:
     area = TriangleMesh(mesh.vertices, coherent).face_areas
     corners = mesh.vertices[coherent]
     weight = np.bincount(piece, area)
-    middle = np.stack([np.bincount(piece, area * corners[..., k].mean(axis=1)) for k in range(3)], axis=1)
-    middle = middle / np.maximum(weight, np.finfo(float).tiny)[:, None]
+    moment = np.stack([np.bincount(piece, area * corners[..., k].mean(axis=1)) for k in range(3)], axis=1)
+    middle = moment / np.maximum(weight, np.finfo(float).tiny)[:, None]
     local = corners - middle[piece][:, None, :]
     volume = np.bincount(piece, np.einsum("ij,ij->i", local[:, 0], np.cross(local[:, 1], local[:, 2])))
     outward = np.where((volume < 0)[piece][:, None], coherent[:, ::-1], coherent)
