@@ -4,6 +4,7 @@
 #include "common/particles.glsl"
 in vec2 corner;               // side -1 to 1; section, root first
 in int ribbon;
+in float shown;               // 0 where hair in front covers it, to 1
 uniform sampler2D curves;     // CURVE_DTYPE of render/ribbons.py
 uniform sampler2D ribbons;    // RIBBON_DTYPE
 uniform sampler2D light;      // towards the root, at the particle, towards the tip
@@ -42,7 +43,8 @@ void main() {
     vec3 across = cross(t, to_eye);
     float sine = length(across);
     across = sine > 1e-4 ? across / sine : side.xyz;
-    place += across * corner.x * half_width * narrowing;
+    // Locks run to a point at both ends.
+    place += across * corner.x * half_width * narrowing * (1.0 - 0.45 * along * along);
 
     vec3 lights = record(light, particle, 1, 0).rgb;
     float received = mix(lights.g, along < 0.0 ? lights.r : lights.b, abs(along));
@@ -63,7 +65,7 @@ void main() {
     vec3 soft = mix(ground.rgb, sky.rgb, 0.35 + 0.5 * sin_u) * open;
     vec3 body = hair_colour * (radiance.rgb * deep * sin_l * directed * 1.15 + soft * (0.75 + 1.4 * sheen)) + soft * sheen * 0.02;
     v_body = vec4(body * exp(0.20 * look.y), corner.x);
-    v_gleam = vec4(t_l, t_v, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w);
+    v_gleam = vec4(t_l, t_v, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown);
     v_at = vec2(look.x + 0.5 * window_width * corner.x, 0.5 + 0.5 * along);
     gl_Position = clip_from_world * vec4(place, 1.0);
 }

@@ -32,5 +32,6 @@ void main() {
         }
     }
     v_light = vec4(lit * through, lit, 0.0, 0.0);
+    gl_PointSize = 1.0;
     gl_Position = place_of(int(last.y + 0.5), rows);
 }

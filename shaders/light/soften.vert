@@ -24,5 +24,6 @@ void main() {
     float rootward = mix(own, mean_over(particle, 0, slots / 2), 0.75);
     float tipward = mix(own, mean_over(particle, slots / 2, slots), 0.75);
     v_light = vec4(rootward, 0.4 * own + 0.3 * (rootward + tipward), tipward, 1.0);
+    gl_PointSize = 1.0;
     gl_Position = place_of(particle, rows);
 }

@@ -13,6 +13,7 @@ from ..resources import asset
 from ..scene.settings import Look
 from ..scene.stage import HairOnStage
 from .context import load_program, set_uniforms
+from .covered import shown_through_hair
 from .hair_light import HairLight, LightPrograms
 from .particle_texture import RecordTexture
 from .ribbons import CURVE_DTYPE, RIBBON_DTYPE, curve_texels, farthest_first, lay_out_ribbons, ribbon_narrowing
@@ -20,6 +21,12 @@ from .scene_block import linear
 from .strands import SECTIONS, CurveBuilder, HairCurves, openness
 from .targets import LightTargets
 from .view import View
+
+_DRAWN_DTYPE = np.dtype([("ribbon", "i4"), ("shown", "f4")])
+
+
+WINDOW_WIDTH = 0.11
+"""Part of the strand texture that a ribbon shows; ``window_width`` in common/strands.glsl."""
 
 
 class HairPrograms:
@@ -53,10 +60,10 @@ class Hair:
         self._curve_texture = RecordTexture(context, CURVE_DTYPE, model.count)
         self._ribbon_texture = RecordTexture(context, RIBBON_DTYPE, len(self._laid_out))
         self._ribbon_texture.write(self._laid_out)
-        self._order = context.buffer(reserve=4 * len(self._laid_out))
+        self._drawn = context.buffer(reserve=_DRAWN_DTYPE.itemsize * len(self._laid_out))
         self._ribbons = context.vertex_array(
             programs.ribbon,
-            [(context.buffer(_strip().tobytes()), "2f", "corner"), (self._order, "1i /i", "ribbon")],
+            [(context.buffer(_strip().tobytes()), "2f", "corner"), (self._drawn, "1i 1f /i", "ribbon", "shown")],
         )
 
     def place(self, hair: HairOnStage, frame: HeadFrame, look: Look) -> None:
@@ -80,25 +87,24 @@ class Hair:
         else:
             self.light.fill()
 
-    def draw(self, view: View, look: Look, depth: moderngl.Texture) -> None:
-        """The ribbons, farthest first (thesis 3.4, lines 17 to 21), into the framebuffer in use.
-
-        ``depth``: of the body from the camera, on which hair ends softly.
-        """
+    def draw(self, view: View, look: Look, picture_height: int) -> None:
+        """The ribbons, farthest first (thesis 3.4, lines 17 to 21), into the framebuffer in use."""
         assert self.curves is not None
         half_width = self._half_width(look)
         order = farthest_first(self._laid_out, self.curves, half_width, view)
-        self._order.orphan()
-        self._order.write(order.astype(np.int32).tobytes())
+        shown = shown_through_hair(self.curves, view, 2 * half_width)[order // self.per_particle]
+        drawn = np.zeros(np.count_nonzero(shown), _DRAWN_DTYPE)
+        drawn["ribbon"], drawn["shown"] = order[shown > 0], shown[shown > 0]
+        self._drawn.orphan()
+        self._drawn.write(drawn.tobytes())
         self._programs.strands.use(2)
-        depth.use(3)
         self.light.softened.use(4)
         self._curve_texture.texture.use(5)
         self._ribbon_texture.texture.use(6)
         set_uniforms(
             self._programs.ribbon,
             strands=2,
-            body_depth=3,
+            level=self._texture_level(view, half_width, picture_height),
             light=4,
             curves=5,
             ribbons=6,
@@ -109,7 +115,18 @@ class Hair:
             transmission=look.forward_scatter,
             gloss=look.gloss,
         )
-        self._ribbons.render(moderngl.TRIANGLE_STRIP, instances=len(order))
+        self._ribbons.render(moderngl.TRIANGLE_STRIP, instances=len(drawn))
+
+    def _texture_level(self, view: View, half_width: float, picture_height: int) -> float:
+        """The mip level at which a texel of a ribbon is as wide as a pixel, in the middle of the hair.
+
+        All ribbons are equally wide and about equally far away, and asking once is faster than at every pixel.
+        """
+        assert self.curves is not None
+        distance = max(float(np.median(view.depth(self.curves.position))), view.near)
+        pixels = ribbon_narrowing(self.per_particle) * half_width * picture_height * view.focal / distance
+        texels = WINDOW_WIDTH * self._programs.strands.width
+        return float(np.log2(max(texels / max(pixels, 1e-6), 1.0)))
 
     def _half_width(self, look: Look) -> float:
         return 0.5 * look.billboard_width * self.model.spacing

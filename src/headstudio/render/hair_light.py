@@ -78,7 +78,7 @@ class HairLight:
         batch = -(-count // BATCHES)
         for first in range(0, count, batch):
             in_batch = min(batch, count - first)
-            with self._context.scope(self._received_target, moderngl.NOTHING):
+            with self._context.scope(self._received_target, moderngl.PROGRAM_POINT_SIZE):
                 set_uniforms(self._programs.receive, first=first)
                 self._receive.render(moderngl.POINTS, vertices=in_batch, first=first)
             with self._context.scope(maps.light, moderngl.BLEND):
@@ -86,7 +86,7 @@ class HairLight:
                 set_uniforms(self._programs.splat, first=first)
                 self._splat.render(moderngl.TRIANGLE_STRIP, instances=in_batch)
         self._neighbours.texture.use(3)
-        with self._context.scope(self._softened_target, moderngl.NOTHING):
+        with self._context.scope(self._softened_target, moderngl.PROGRAM_POINT_SIZE):
             set_uniforms(self._programs.soften, neighbours=3, received=4, rows=rows, slots=self._slots)
             self._soften.render(moderngl.POINTS, vertices=count)
 

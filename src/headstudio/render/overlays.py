@@ -23,7 +23,6 @@ class OverlayPass:
         """All segments, then all points, into the framebuffer in use."""
         if overlays is not self._sent:
             self._send(overlays)
-        self._context.point_size = 3.0
         for mode, array in self._arrays:
             array.render(mode)
 

@@ -97,11 +97,13 @@ class Renderer:
         maps.map.use(1)
         with timer.stage("body"):
             self._draw_body(body if look.show_head else None, view, look, targets)
-        with timer.stage("hair"), self.context.scope(targets.over_scene, moderngl.BLEND):
+        with timer.stage("hair"), self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
+            targets.scene.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             if hair is not None:
-                hair.draw(view, look, targets.depth)
-        with timer.stage("overlays"), self.context.scope(targets.scene, moderngl.NOTHING):
+                hair.draw(view, look, height * targets.supersampling)
+            targets.scene.depth_mask = True
+        with timer.stage("overlays"), self.context.scope(targets.scene, moderngl.PROGRAM_POINT_SIZE):
             self._overlays.draw(stage.overlays)
         with timer.stage("develop"), self.context.scope(targets.shown, moderngl.NOTHING):
             targets.colour.use(0)

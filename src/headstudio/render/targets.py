@@ -15,16 +15,13 @@ Size = tuple[int, int]
 class PictureTargets:
     """Linear colour (half floats, premultiplied alpha) with depth, and what is shown (8 bits, sRGB).
 
-    ``scene`` is ``supersampling`` times as large as ``size``. The hair is drawn into ``over_scene``, the same colour
-    without the depth buffer: it reads the depth as a texture, and ends softly where the body begins.
+    ``scene`` is ``supersampling`` times as large as ``size``.
     """
 
     size: Size
     supersampling: int
     scene: moderngl.Framebuffer
     colour: moderngl.Texture
-    depth: moderngl.Texture
-    over_scene: moderngl.Framebuffer
     shown: moderngl.Framebuffer
     picture: moderngl.Texture
 
@@ -47,17 +44,12 @@ def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -
         raise RenderError(f"a picture has 1 to {largest} pixels a side here, got {size[0]} x {size[1]}")
     fine = (size[0] * supersampling, size[1] * supersampling)
     colour = _texture(context, fine, 4, "f2", moderngl.NEAREST)
-    depth = context.depth_texture(fine)
-    depth.compare_func = ""
-    depth.filter = (moderngl.NEAREST, moderngl.NEAREST)
     picture = _texture(context, size, 4, "f1", moderngl.LINEAR)
     return PictureTargets(
         size=size,
         supersampling=supersampling,
-        scene=context.framebuffer([colour], depth),
+        scene=context.framebuffer([colour], context.depth_renderbuffer(fine)),
         colour=colour,
-        depth=depth,
-        over_scene=context.framebuffer([colour]),
         shown=context.framebuffer([picture]),
         picture=picture,
     )

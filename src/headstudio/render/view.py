@@ -19,7 +19,8 @@ class View:
     """A camera or a parallel light.
 
     clip_from_world: 4 x 4, for column vectors. eye: where the camera stands [m], or for a light some point on its side.
-    forward: unit direction of looking, (3,). right, up: unit, (3,). near, far: distances of the clip planes [m].
+    forward, right, up: unit vectors, (3,). near, far: distances of the clip planes [m]. focal: of a camera,
+    1 / tan(half its vertical angle of view).
     """
 
     clip_from_world: Floats
@@ -29,6 +30,7 @@ class View:
     up: Floats
     near: float
     far: float
+    focal: float = 1.0
 
     def depth(self, points: Floats) -> Floats:
         """How far points [m], (..., 3), lie in front of the eye along the direction of looking [m], (...,)."""
@@ -54,7 +56,7 @@ def camera_view(camera: Camera, aspect: float) -> View:
     projection[1, 1] = focal
     projection[2, 2:] = (near + far) / (near - far), 2 * near * far / (near - far)
     projection[3, 2] = -1.0
-    return _view(eye, target - eye, projection, near, far)
+    return _view(eye, target - eye, projection, near, far, focal)
 
 
 def light_view(look: Look, centre: Floats, radius: float) -> View:
@@ -65,7 +67,7 @@ def light_view(look: Look, centre: Floats, radius: float) -> View:
     return _view(centre + radius * to_light, -to_light, projection, 0.0, 2 * radius)
 
 
-def _view(eye: Floats, direction: Floats, projection: Floats, near: float, far: float) -> View:
+def _view(eye: Floats, direction: Floats, projection: Floats, near: float, far: float, focal: float = 1.0) -> View:
     forward = direction / np.linalg.norm(direction)
     # Straight up or down "up" names no direction: then the face's own (+Z) does.
     reference = _UP if abs(forward[1]) < 0.9999 else np.array([0.0, 0.0, np.sign(forward[1])])
@@ -75,4 +77,4 @@ def _view(eye: Floats, direction: Floats, projection: Floats, near: float, far: 
     look_at = np.eye(4)
     look_at[:3, :3] = right, up, -forward
     look_at[:3, 3] = -look_at[:3, :3] @ eye
-    return View(projection @ look_at, eye, forward, right, up, near, far)
+    return View(projection @ look_at, eye, forward, right, up, near, far, focal)
