@@ -32,7 +32,7 @@ def _almond(p: Floats) -> Floats:
 
 
 def _shape(p: Floats, head: Floats) -> Floats:
-    head = carve(head, ellipsoid(p, (29, 37, 97), (21, 12, 12), (0, 18, 0)), 18)  # socket
+    head = carve(head, ellipsoid(p, (29, 38, 97), (21, 12, 11), (0, 18, 0)), 20)  # socket
     head = join(head, ellipsoid(p, EYE, (EYE_RADIUS + LID + 2.5, EYE_RADIUS + LID, EYE_RADIUS + LID)), 8)  # lids
     head = carve(head, CREASE(p), 3.0)
     # The floor of the slit lies under the ball, and before it only in the corners.

@@ -48,8 +48,9 @@ def charted(vertices: Floats, faces: Ints) -> Floats:
     """
     middle = vertices[:, 0] < 1e-9
     crown = middle & (vertices[:, 1] > _CROWN)
-    top = vertices[crown, 2]
-    front, back = middle & (vertices[:, 2] >= top.max()), middle & (vertices[:, 2] <= top.min())
+    depth, top = vertices[:, 2], vertices[crown, 2]
+    front = middle & np.where(crown, depth == top.max(), depth > top.mean())
+    back = middle & np.where(crown, depth == top.min(), depth < top.mean())
     u = _harmonic(vertices, faces, front, 0.5, back, 1.0)
     return np.stack([u, _harmonic(vertices, faces, vertices[:, 1] < CUT + 1e-9, 0.0, crown, 1.0)], axis=1)
 
