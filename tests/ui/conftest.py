@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from headstudio.app.application import Application
 from headstudio.app.studio import Studio
 from headstudio.app.window import Window
@@ -18,8 +19,10 @@ SMALL = {"head.source": "mannequin", "hair.particles": 300, "look.shadow_size": 
 
 @pytest.fixture(scope="module")
 def application() -> Iterator[Application]:
-    window = Window("test", (1280, 800), headless=True)
+    window = Window("test", (1280, 1300), headless=True)
     application = Application(window, Studio())
+    # Every panel is in sight, and the picture small, for speed.
+    application.sizes.foot = 760
     application.studio.work.history.reopen(assign(application.studio.document, SMALL))
     yield application
     window.close()
@@ -37,7 +40,7 @@ def driver(application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyP
     studio.messages.log.clear()
     studio.playback.playing = False
     driver = Driver(application)
-    driver.move(2, 790)
+    driver.move(2, 1290)
     driver.built()
     studio.reset()
     driver.frames()

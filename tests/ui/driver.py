@@ -6,9 +6,10 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from imgui_bundle import imgui
+
 from headstudio.app.application import Application
 from headstudio.app.ui import Rect
-from imgui_bundle import imgui
 
 FRAME = 1 / 60
 

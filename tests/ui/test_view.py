@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from imgui_bundle import imgui
+
 from headstudio.app import navigation
 from headstudio.app.picking import View, pick_head
 from headstudio.head.frame import HeadFrame
 from headstudio.scene.settings import Camera
-from imgui_bundle import imgui
 
 
 def corner(driver):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
-from ..params import Parameter
 from . import compass
 from .editors import SHOWN
 from .parameter_rows import ParameterRows, defaults
@@ -70,15 +69,12 @@ class Sidebar:
         with ui.section("Wind") as shown:
             if not shown:
                 return
-            declared: Parameter = defaults()["wind.speed"][0]
-            imgui.begin_group()
-            if ui.button(
-                "On" if wind.on else "Off", declared.doc, icon=icons.ICON_FA_WIND, on=wind.on, width=ui.px(76)
-            ):
+            text, help_ = "On" if wind.on else "Off", defaults()["wind.on"][0].doc
+            if ui.button("Blow", help_, icon=icons.ICON_FA_WIND, text=text, on=wind.on, width=ui.px(76)):
                 self.rows.set("wind.on", not wind.on)
-            imgui.end_group()
             imgui.same_line(imgui.get_content_region_avail().x - ui.px(2 * compass.RADIUS))
-            heading = compass.draw(ui, wind.heading, wind.speed / (declared.high or 1.0), on=wind.on)
+            strength = wind.speed / (defaults()["wind.speed"][0].high or 1.0)
+            heading = compass.draw(ui, wind.heading, strength, on=wind.on)
             if heading is not None:
                 self.rows.set("wind.heading", heading)
             for name in ("speed", "gusts", "drag"):

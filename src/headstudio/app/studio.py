@@ -8,7 +8,9 @@ from typing import Any
 
 from ..head.head import HeadError
 from ..head.mesh import Floats
+from ..io.film import FilmError
 from ..params import ParameterError
+from ..render.context import RenderError
 from ..scene.builder import Builder, Built
 from ..scene.document import Document
 from ..scene.project import ProjectError
@@ -21,7 +23,7 @@ from .playback import Playback
 from .work import Work
 
 # What the program foresaw and says in its own words; anything else is named with its type.
-FORESEEN = (HeadError, ParameterError, ProjectError, OSError)
+FORESEEN = (HeadError, ParameterError, ProjectError, RenderError, FilmError, OSError)
 
 
 @dataclass(frozen=True, eq=False)

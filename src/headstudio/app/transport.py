@@ -36,14 +36,16 @@ class Transport:
 
     def _draw_buttons(self, ui: Ui) -> None:
         playback = self._studio.playback
-        if ui.button("##Reset", "Everything back to rest (Home)", icon=icons.ICON_FA_BACKWARD_STEP, width=ui.px(34)):
+        if ui.button(
+            "Reset", "Everything back to rest (Home)", icon=icons.ICON_FA_BACKWARD_STEP, text="", width=ui.px(34)
+        ):
             self._studio.reset()
         imgui.same_line()
         icon = icons.ICON_FA_PAUSE if playback.playing else icons.ICON_FA_PLAY
-        if ui.button("##Play", "Play or pause (Space)", icon=icon, on=playback.playing, width=ui.px(46)):
+        if ui.button("Play", "Play or pause (Space)", icon=icon, text="", on=playback.playing, width=ui.px(46)):
             playback.toggle()
         imgui.same_line()
-        if ui.button("##Step", "One step of 1/60 s (Right)", icon=icons.ICON_FA_FORWARD_STEP, width=ui.px(34)):
+        if ui.button("Step", "One step of 1/60 s (Right)", icon=icons.ICON_FA_FORWARD_STEP, text="", width=ui.px(34)):
             playback.step()
         imgui.same_line(0, ui.px(20))
         self._draw_record(ui)
@@ -53,11 +55,10 @@ class Transport:
         colour = theme.ERROR if recording else theme.INK
         imgui.push_style_color(imgui.Col_.text.value, theme.rgba(colour))
         icon = icons.ICON_FA_STOP if recording else icons.ICON_FA_CIRCLE
-        label = f"{self._recorder.seconds:.1f} s" if recording else "Record"
-        if ui.button(label, "Record a film (.mp4) or a folder of pictures", icon=icon, width=ui.px(96)):
+        text = f"{self._recorder.seconds:.1f} s" if recording else None
+        if ui.button("Record", "Record a film (.mp4) or a folder of pictures", icon=icon, text=text, width=ui.px(96)):
             self._ask_record()
         imgui.pop_style_color()
-        ui.note("Record")
 
     def _draw_clock(self, ui: Ui) -> None:
         playback = self._studio.playback

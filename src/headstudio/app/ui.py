@@ -79,19 +79,30 @@ class Ui:
             imgui.end_tooltip()
 
     def button(
-        self, label: str, help_: str = "", *, icon: str = "", on: bool = False, width: float = 0.0, enabled: bool = True
+        self,
+        label: str,
+        help_: str = "",
+        *,
+        icon: str = "",
+        text: str | None = None,
+        on: bool = False,
+        width: float = 0.0,
+        enabled: bool = True,
     ) -> bool:
-        """A button; ``on`` shows it pressed in, in the accent colour. ``icon`` stands before the label, or instead."""
-        shown = f"{icon}  {label}" if icon and label[:1] != "#" else icon or label
+        """A button; ``on`` shows it pressed in, in the accent colour.
+
+        ``text`` is what is written on it, when that is not the label; ``icon`` stands before it.
+        """
+        shown = "  ".join(part for part in (icon, label if text is None else text) if part)
         colours = (theme.ACCENT_DEEP, theme.ACCENT_DEEP, theme.ACCENT) if on else ()
         slots = (imgui.Col_.button, imgui.Col_.button_hovered, imgui.Col_.button_active)
         for slot, colour in zip(slots, colours):
             imgui.push_style_color(slot.value, theme.rgba(colour))
         imgui.begin_disabled(not enabled)
-        pressed = imgui.button(f"{shown}##{label}", (width, 0))
+        pressed = imgui.button(f"{shown}###{label}", (width, 0))
         imgui.end_disabled()
         imgui.pop_style_color(len(colours))
-        self.note(label.lstrip("#"))
+        self.note(label)
         self.hint(help_)
         return pressed
 

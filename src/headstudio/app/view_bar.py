@@ -28,6 +28,6 @@ def draw(ui: Ui, viewport: Viewport, area: Rect) -> None:
             if ui.button(label, f"Look at the {side} of the head."):
                 viewport.look_from(side)
             imgui.same_line(0, gap)
-        if ui.button("##Frame", "See all of head and hair (F).", icon=icons.ICON_FA_EXPAND):
+        if ui.button("Frame", "See all of head and hair (F).", icon=icons.ICON_FA_EXPAND, text=""):
             viewport.frame_all()
     imgui.pop_style_color()

@@ -59,6 +59,8 @@ class Viewport:
         self.rect = Rect(corner.x, corner.y, *size)
         flags = imgui.ButtonFlags_
         buttons = flags.mouse_button_left.value | flags.mouse_button_right.value | flags.mouse_button_middle.value
+        # Buttons and messages lie on top of it and come first.
+        imgui.set_next_item_allow_overlap()
         imgui.invisible_button("##view", size, buttons)
         ui.note("Viewport")
         self._take_mouse(imgui.is_item_hovered(), imgui.is_item_active())

@@ -120,9 +120,14 @@ class Window:
 
     def picture(self) -> NDArray[np.uint8]:
         """What was drawn last, shape (height, width, 3), first row on top. Call between ``end_frame`` and the next."""
-        width, height = glfw.get_framebuffer_size(self._handle)
-        pixels = self.gl.screen.read(viewport=(0, 0, width, height), components=3, alignment=1)
-        return np.frombuffer(pixels, np.uint8).reshape(height, width, 3)[::-1].copy()
+        size = glfw.get_framebuffer_size(self._handle)
+        # By way of a framebuffer of our own: moderngl reads a window's through an attachment that it does not have.
+        copy = self.gl.simple_framebuffer(size, 4)
+        self.gl.copy_framebuffer(copy, self.gl.screen)
+        pixels = np.frombuffer(copy.read(components=3, alignment=1), np.uint8)
+        copy.release()
+        self.gl.screen.use()
+        return pixels.reshape(size[1], size[0], 3)[::-1].copy()
 
     def close(self) -> None:
         """Give everything back."""

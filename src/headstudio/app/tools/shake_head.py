@@ -31,7 +31,7 @@ class ShakeHead(Tool):
         across = (pointer.x - self._start.x) / pointer.view.height
         down = (pointer.y - self._start.y) / pointer.view.height
         right, up, _ = navigation.axes(pointer.view.camera)
-        if pointer.ctrl:
+        if self._start.ctrl:
             reach = 2 * np.tan(pointer.view.camera.field_of_view / 2) * self._depth()
             self.studio.aim_head(np.zeros(3), reach * (across * right - down * up))
             return

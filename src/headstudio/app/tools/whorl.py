@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 from imgui_bundle import icons_fontawesome_6 as icons
 
+from ...head.mesh import Floats
 from ...params import assign
 from .. import theme
 from .tool import Canvas, Pointer, Tool
+
+ON_SCALP = 0.005  # [m]
 
 
 class PlaceWhorl(Tool):
@@ -18,8 +21,8 @@ class PlaceWhorl(Tool):
     help = "Click on the scalp: hair grows away from this point (eq. 4)."
 
     def press(self, pointer: Pointer) -> bool:
-        """Begin to place it, if the mouse is on the head."""
-        if pointer.hit is None or self.studio.grown is None:
+        """Begin to place it, if the mouse is on the scalp."""
+        if self._scalp_under(pointer) is None:
             return False
         self.studio.work.begin_gesture("Place the whorl")
         self.drag(pointer)
@@ -27,11 +30,11 @@ class PlaceWhorl(Tool):
 
     def drag(self, pointer: Pointer) -> None:
         """Move it under the mouse."""
-        if pointer.hit is None or self.studio.grown is None:
-            return
-        u, v = np.clip(self.studio.grown.built.scalp.locate(pointer.hit.point[None])[0], 0, 1)
-        document = assign(self.studio.document, {"scalp.whorl_u": float(u), "scalp.whorl_v": float(v)})
-        self.studio.work.change(document, "Place the whorl")
+        uv = self._scalp_under(pointer)
+        if uv is not None:
+            u, v = (float(part) for part in np.clip(uv, 0, 1))
+            document = assign(self.studio.document, {"scalp.whorl_u": u, "scalp.whorl_v": v})
+            self.studio.work.change(document, "Place the whorl")
 
     def release(self) -> None:
         """It stays where it is; the hair grows anew."""
@@ -52,3 +55,12 @@ class PlaceWhorl(Tool):
         for radius, thickness in ((9.0, 1.5), (4.0, 2.0)):
             canvas.drawing.add_circle(centre, radius * canvas.scale, dark, 32, (thickness + 2) * canvas.scale)
             canvas.drawing.add_circle(centre, radius * canvas.scale, accent, 32, thickness * canvas.scale)
+
+    def _scalp_under(self, pointer: Pointer) -> Floats | None:
+        """(u, v) of the scalp under the mouse, (2,); None beside it."""
+        if pointer.hit is None or self.studio.grown is None:
+            return None
+        scalp = self.studio.grown.built.scalp
+        point = pointer.hit.point[None]
+        uv = scalp.locate(point)
+        return uv[0] if np.linalg.norm(scalp.points(uv) - point) < ON_SCALP else None

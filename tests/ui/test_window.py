@@ -1,0 +1,75 @@
+"""The window itself: it opens without a screen, draws itself, and says clearly when it cannot open."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from headstudio.app import theme
+from headstudio.app.messages import SECONDS, Messages
+
+
+def test_the_whole_window_is_drawn(driver):
+    driver.frames(2)
+    picture = driver.app.window.picture()
+    assert picture.shape == (1300, 1280, 3)
+    ground = np.round(np.array(theme.GROUND) * 255)
+    assert np.abs(picture[4, 600] - ground).max() <= 2, "the menu bar"
+    rect = driver.rect("Viewport")
+    view = picture[int(rect.y) : int(rect.y + rect.height), int(rect.x) : int(rect.x + rect.width)]
+    assert view.std() > 12, "a head in the viewport"
+    accent = np.abs(picture.astype(int) - np.round(np.array(theme.ACCENT_DEEP) * 255)).max(axis=2) < 12
+    assert accent.sum() > 1500, "filled sliders and the tool in the hand"
+
+
+def test_the_view_is_not_upside_down(driver):
+    rect = driver.rect("Viewport")
+    picture = driver.app.window.picture()
+    view = picture[int(rect.y) : int(rect.y + rect.height), int(rect.x) : int(rect.x + rect.width)]
+    shown = driver.app.viewport.picture()[: len(view)].astype(int)
+    assert np.abs(view - shown).mean() < 0.2 * np.abs(view - shown[::-1]).mean()
+
+
+def test_the_panels_can_be_hidden_and_resized(driver):
+    before = driver.rect("Viewport")
+    x, y = driver.rect("Left edge").centre
+    driver.drag((x, y), (x + 40, y))
+    assert driver.rect("Viewport").width == pytest.approx(before.width - 40, abs=2)
+    driver.drag((x + 40, y), (x, y))
+    from imgui_bundle import imgui
+
+    driver.key(imgui.Key.tab)
+    driver.frames(2)
+    assert driver.rect("Viewport").width == 1280
+    driver.key(imgui.Key.tab)
+    driver.frames(2)
+    assert driver.rect("Viewport").width == pytest.approx(before.width, abs=2)
+
+
+def test_opengl_is_left_without_errors(driver):
+    driver.frames(2)
+    assert driver.app.window.gl.error == "GL_NO_ERROR"
+
+
+def test_without_a_display_one_line_says_what_to_do():
+    environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    code = (
+        "from headstudio.app import WindowError, main\ntry:\n    main()\nexcept WindowError as error:\n    print(error)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=60)
+    assert "headstudio demo" in done.stdout
+    assert len(done.stdout.splitlines()) == 1
+    assert done.stderr == ""
+
+
+def test_messages_age_and_go():
+    messages = Messages()
+    messages.say("one")
+    messages.say("two", "error")
+    messages.say("one")
+    assert [(m.text, m.times) for m in messages.shown] == [("one", 2), ("two", 1)]
+    messages.pass_time(SECONDS["info"] + 0.1)
+    assert [m.text for m in messages.shown] == ["two"]
+    assert [m.text for m in messages.log] == ["one", "two"]
