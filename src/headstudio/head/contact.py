@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .mesh import Floats, Ints, TriangleMesh
+from .mesh import Floats, TriangleMesh
+from .sampling import sample_surface
 
-_SAMPLES_PER_VOXEL = 24
+_SAMPLES_PER_VOXEL = 24  # on a plane through it
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +35,7 @@ class ContactField:
     @classmethod
     def around(cls, mesh: TriangleMesh, voxel: float, seed: int = 0) -> ContactField:
         """Sample the surface evenly by area and average positions and normals in each voxel of edge ``voxel`` [m]."""
-        positions, normals = _sample_surface(mesh, voxel, seed)
+        positions, normals = sample_surface(mesh, voxel / math.sqrt(_SAMPLES_PER_VOXEL), seed)
         origin = mesh.bounds[0] - 3.0 * voxel
         shape = np.ceil((mesh.bounds[1] - origin) / voxel).astype(int) + 3
         cell = np.ravel_multi_index(tuple(((positions - origin) / voxel).astype(int).T), tuple(shape))
@@ -59,21 +61,6 @@ class ContactField:
         offset = positions - self.points[plane]
         distance = np.where(plane >= 0, np.einsum("ij,ij->i", offset, normals), np.inf)
         return distance, normals
-
-
-def _sample_surface(mesh: TriangleMesh, voxel: float, seed: int) -> tuple[Floats, Floats]:
-    """Random points on the surface, as many on a face as its area asks for, with interpolated normals."""
-    rng = np.random.default_rng(seed)
-    areas = mesh.face_areas
-    count = max(1000, int(_SAMPLES_PER_VOXEL * areas.sum() / voxel**2))
-    face = rng.choice(len(areas), size=count, p=areas / areas.sum())
-    a, b = rng.random((2, count))
-    fold = a + b > 1.0
-    a, b = np.where(fold, 1.0 - a, a), np.where(fold, 1.0 - b, b)
-    weights = np.stack([1.0 - a - b, a, b], axis=1)
-    corners: Ints = mesh.faces[face]
-    positions = np.einsum("ij,ijk->ik", weights, mesh.vertices[corners])
-    return positions, np.einsum("ij,ijk->ik", weights, mesh.vertex_normals[corners])
 
 
 def _borrow_planes(plane: NDArray[np.int32]) -> NDArray[np.int32]:

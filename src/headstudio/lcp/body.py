@@ -8,11 +8,12 @@ import numpy as np
 
 from ..head.contact import ContactField
 from ..head.frame import HeadFrame
+from ..head.hair_tight import hair_tight_surface
 from ..head.head import Head
 from ..head.mesh import Floats, TriangleMesh
 
 _VOXEL = 0.014
-_SLIDING_DISTANCE = 0.004
+_SLIDING_DISTANCE = 0.006
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,10 +26,9 @@ class Body:
     @classmethod
     def around(cls, head: Head, voxel: float = _VOXEL) -> Body:
         """The planes of a head: neck and head up to half the turn of the neck, the rest of the neck and the torso below."""
-        weight = head.head_weight[head.skin.faces].mean(axis=1)
-        upper, lower = (
-            TriangleMesh(head.skin.vertices, head.skin.faces[which]) for which in (weight >= 0.5, weight < 0.5)
-        )
+        surface, turning = hair_tight_surface(head)
+        weight = turning[surface.faces].mean(axis=1)
+        upper, lower = (TriangleMesh(surface.vertices, surface.faces[which]) for which in (weight >= 0.5, weight < 0.5))
         return cls(
             ContactField.around(upper, voxel),
             ContactField.around(lower, voxel) if len(lower.faces) else None,

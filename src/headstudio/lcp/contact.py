@@ -17,17 +17,21 @@ from .model import HairModel
 
 # Hair this much longer than its arc length is drawn back: it stretches no further, however it is pulled.
 LONGEST_REACH = 1.03
-# (k_r / m) of eq. 3.24 [1/s^2]: hair below the surface comes out within a tenth of a second.
-_REPULSION = 2500.0
+# Time in which hair below the surface comes out again [s]. As a force (eq. 3.24) it would lose against a stiff spring.
+_EMERGENCE = 0.03
+_DEEPEST = 0.002  # that hair may be below the surface at the end of a step [m]
 _THICKNESS = 0.5  # of the mean distance of particles: where the surface of a particle's hair touches the body
+_BEGINNING = 3.0  # of it: so much of a hair may lie closer to the skin than that
+# A pull toward the root that would lead into the body goes along it instead, unless it stands this steep on it.
+_STEEPEST = 0.3
 
 
 @dataclass(frozen=True, eq=False)
 class Touching:
     """The plane nearest to every particle: distance d [m], (n,), unit normal and velocity of the body [m/s], (n, 3).
 
-    keep: the distance at which the particle touches [m], (n,): less for hair that grows closer to the skin than that, and
-    below zero where a plane is too coarse for the skin that it grows on.
+    keep: the distance at which the particle touches [m], (n,): less next to the scalp, where hair begins closer to the
+    skin than that, and below zero where a plane is too coarse for the skin that hair lies on.
     """
 
     distance: Floats
@@ -39,42 +43,52 @@ class Touching:
 def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) -> Touching:
     """Where the body is, seen from every particle (eq. 3.19). positions: head frame [m], (n, 3)."""
     distance, normals, velocity = body.planes(positions, frame)
-    keep = np.minimum(_THICKNESS * model.spacing, model.rest_clearance)
+    thickness = _THICKNESS * model.spacing
+    begins = (model.arc_length < _BEGINNING * model.spacing) | (model.rest_clearance < 0)
+    keep = np.where(begins, np.minimum(thickness, model.rest_clearance), thickness)
     return Touching(distance, np.where(np.isfinite(distance)[:, None], normals, 0.0), velocity, keep)
-
-
-def repulsion(touch: Touching) -> Floats:
-    """Acceleration that brings particles below the surface out again (eq. 3.24) [m/s^2], (n, 3)."""
-    depth = np.maximum(np.minimum(touch.keep, 0.0) - touch.distance, 0.0)
-    return _REPULSION * depth[:, None] * touch.normals
 
 
 def stop_at_body(velocities: Floats, touch: Touching, distance: Floats, friction: float, dt: float) -> Floats:
     """Velocities [m/s] that do not lead into the body within dt [s], (n, 3).
 
     distance: of the positions that the step starts from [m], (n,). Eq. 3.20 and 3.21 stop the normal part, 3.22 and 3.23
-    (Coulomb, coefficient ``friction``) slow down the tangential one.
+    (Coulomb, coefficient ``friction``) slow down the tangential one, and what is below the surface comes out (3.24).
     """
     relative = velocities - touch.velocity
     approach = np.einsum("ij,ij->i", relative, touch.normals)
     # What is still free to go before the particle touches. Eq. 3.21 is the limit of a small step.
     allowed = -np.maximum(distance - touch.keep, 0.0) / dt
+    depth = np.maximum(np.minimum(touch.keep, 0.0) - distance, 0.0)
     impulse = np.maximum(allowed - approach, 0.0)
+    emerging = np.maximum(depth / max(_EMERGENCE, dt) - np.maximum(approach, 0.0), 0.0)
     sliding = relative - approach[:, None] * touch.normals
     speed = np.sqrt(np.einsum("ij,ij->i", sliding, sliding))
     braked = np.minimum(friction * impulse, speed) / np.maximum(speed, 1e-12)
-    return velocities + impulse[:, None] * touch.normals - braked[:, None] * sliding
+    return velocities + (impulse + emerging)[:, None] * touch.normals - braked[:, None] * sliding
 
 
-def stop_at_reach(model: HairModel, positions: Floats, velocities: Floats, dt: float) -> Floats:
+def lifted(positions: Floats, touch: Touching) -> Floats:
+    """Positions [m], (n, 3), none deeper than ``_DEEPEST`` below its plane: what one step could not stop is put back."""
+    excess = np.maximum(np.minimum(touch.keep, 0.0) - _DEEPEST - touch.distance, 0.0)
+    return positions + excess[:, None] * touch.normals
+
+
+def stop_at_reach(
+    model: HairModel, positions: Floats, velocities: Floats, touch: Touching, distance: Floats, dt: float
+) -> Floats:
     """Velocities [m/s] that do not lead further from the root than the hair is long, (n, 3).
 
-    positions: those that the step starts from [m], (n, 3). Not in the paper: its springs alone let go for good of what a
-    hard stop has once torn off.
+    positions: those that the step starts from [m], (n, 3), at ``distance`` from the body [m], (n,). Not in the paper: its
+    springs alone let go for good of what a hard stop has once torn off. Hair that touches the body is drawn along it.
     """
     ahead = positions + dt * velocities - model.root_points
     reach = np.sqrt(np.einsum("ij,ij->i", ahead, ahead))
-    over = reach - LONGEST_REACH * np.maximum(model.arc_length, 0.0)
-    held = (over > 0) & ~model.fixed
-    back = np.where(held, over / (dt * np.maximum(reach, 1e-12)), 0.0)
-    return velocities - back[:, None] * ahead
+    over = np.where(model.fixed, 0.0, np.maximum(reach - LONGEST_REACH * np.maximum(model.arc_length, 0.0), 0.0))
+    back = -ahead / np.maximum(reach, 1e-12)[:, None]
+    inward = np.einsum("ij,ij->i", back, touch.normals)
+    touches = (distance <= touch.keep) & (inward < 0)
+    along = back - np.where(touches, inward, 0.0)[:, None] * touch.normals
+    # Going along the body brings less per way than the straight one: |along|^2 of it.
+    gain = np.maximum(np.einsum("ij,ij->i", along, along), _STEEPEST**2)
+    return velocities + (over / (dt * gain))[:, None] * along

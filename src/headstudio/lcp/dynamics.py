@@ -8,7 +8,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
 from .bending import Bending
 from .body import Body
-from .contact import Touching, repulsion, stop_at_body, stop_at_reach, touching
+from .contact import Touching, lifted, stop_at_body, stop_at_reach, touching
 from .direction import updated_directions
 from .inertia import apparent_acceleration
 from .interactions import hair_hair_forces
@@ -45,7 +45,6 @@ class Dynamics:
         positions: Floats,
         velocities: Floats,
         directions: Floats,
-        touch: Touching,
         dt: float,
     ) -> Floats:
         """Everything but springs and air friction [m/s^2], (n, 3): what an explicit step can carry.
@@ -53,7 +52,7 @@ class Dynamics:
         positions [m], velocities [m/s] and directions: (n, 3). dt: the step to come [s].
         """
         acceleration = apparent_acceleration(now.frame, positions, velocities, now.settings.gravity)
-        acceleration += repulsion(touch) + self.bending.acceleration(positions, now.settings)
+        acceleration += self.bending.acceleration(positions, now.settings)
         if now.outside is not None:
             acceleration += now.outside / self.model.mass[:, None]
         if now.settings.interactions:
@@ -82,10 +81,17 @@ class Dynamics:
         A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s].
         """
         with self.timer.stage("contact"):
-            velocities = stop_at_reach(self.model, start, velocities, dt)
             velocities = stop_at_body(velocities, touch, distance, friction, dt)
+            velocities = stop_at_reach(self.model, start, velocities, touch, distance, dt)
         velocities[self.model.fixed] = 0.0
         return velocities
+
+    def lift(self, positions: Floats, frame: HeadFrame) -> Floats:
+        """Positions [m], (n, 3), with what ended up deep in the body put back to its surface."""
+        touch = self.touch(positions, frame)
+        with self.timer.stage("contact"):
+            lifted_positions = lifted(positions, touch)
+        return np.where(self.model.fixed[:, None], positions, lifted_positions)
 
     def turn(self, positions: Floats, directions: Floats, settings: DynamicsSettings) -> Floats:
         """Hair directions at new positions (eq. 15), unit, (n, 3)."""

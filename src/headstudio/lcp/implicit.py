@@ -48,8 +48,7 @@ class ImplicitSolver:
         g = 2.0 * dt / 3.0
 
         ahead = x_hat + g * v
-        touch = dynamics.touch(ahead, now.frame)
-        soft = dynamics.soft_acceleration(now, ahead, v, state.directions, touch, dt)
+        soft = dynamics.soft_acceleration(now, ahead, v, state.directions, dt)
         links = dynamics.links(ahead, settings)
         force = mass * soft + dynamics.springs.forces(links, v, settings)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
@@ -60,10 +59,11 @@ class ImplicitSolver:
             self.iterations += self._matrix.iterations
 
         free = v + change
-        # The distance of x^ on the plane that was seen from ``ahead``.
-        distance = touch.distance - g * np.einsum("ij,ij->i", v, touch.normals)
+        # The plane that a particle would run into tells how far from it the step starts.
+        touch = dynamics.touch(x_hat + g * free, now.frame)
+        distance = touch.distance - g * np.einsum("ij,ij->i", free - touch.velocity, touch.normals)
         v_new = dynamics.hold(x_hat, free, touch, distance, settings.body_friction, g)
-        x_new = x_hat + g * v_new
+        x_new = dynamics.lift(x_hat + g * v_new, now.frame)
         directions = dynamics.turn(x_new, state.directions, settings)
         # A held particle has a kink in its path. Where it was held it looks back on a straight one, or it would bounce.
         kink = _unit(v_new - free)
@@ -75,7 +75,7 @@ class ImplicitSolver:
         dynamics, settings = self.dynamics, now.settings
         x, v = state.positions, state.velocities
         touch = dynamics.touch(x, now.frame)
-        acceleration = dynamics.soft_acceleration(now, x, v, state.directions, touch, dt)
+        acceleration = dynamics.soft_acceleration(now, x, v, state.directions, dt)
         springs = dynamics.springs.forces(dynamics.links(x, settings), v, settings)
         acceleration += springs / dynamics.model.mass[:, None] - settings.air_friction * v
         held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, settings.body_friction, dt)

@@ -38,10 +38,10 @@ class LeapfrogSolver:
         x, v = state.positions, state.velocities
         mass = dynamics.model.mass[:, None]
         touch = dynamics.touch(x, now.frame)
-        acceleration = dynamics.soft_acceleration(now, x, v, state.directions, touch, dt)
+        acceleration = dynamics.soft_acceleration(now, x, v, state.directions, dt)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v = dynamics.hold(x, v, touch, touch.distance, settings.body_friction, dt)
-        x = x + dt * v
+        x = dynamics.lift(x + dt * v, now.frame)
         return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)

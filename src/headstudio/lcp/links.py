@@ -16,7 +16,7 @@ WANTED_LINKS = 12  # N_n of the paper
 _KEPT_ROOTWARD = 3
 # Shortest rest length as a part of the distance along the hair, and weakest link as a part of a particle's strongest.
 _CLOSEST = 0.5
-_FAINTEST = 0.03
+_FAINTEST = 0.15
 
 
 @dataclass(frozen=True, eq=False)
