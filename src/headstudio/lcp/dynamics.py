@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
 from .bending import Bending
