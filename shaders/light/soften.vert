@@ -7,23 +7,28 @@ uniform int slots;
 uniform int rows;
 flat out vec4 v_light;
 
-float light_of(int particle) { return record(received, particle, 1, 0).r; }
-
-float mean_over(int particle, int from, int to) {
-    float sum = 0.0;
-    for (int k = from; k < to; ++k) {
-        ivec4 who = ivec4(record(neighbours, particle, slots, k) + 0.5);
-        sum += light_of(who.x) + light_of(who.y) + light_of(who.z) + light_of(who.w);
+// Sum of the light of four neighbours, and how many there are.
+vec2 sum_of(vec4 who) {
+    vec2 sum = vec2(0.0);
+    for (int k = 0; k < 4; ++k) {
+        if (who[k] >= 0.0) sum += vec2(record(received, int(who[k] + 0.5), 1, 0).r, 1.0);
     }
-    return sum / float(4 * (to - from));
+    return sum;
+}
+
+// Half of what a particle gets, half of what its neighbours in texels from..to get.
+float shared(int particle, float own, int from, int to) {
+    vec2 sum = vec2(0.0);
+    for (int k = from; k < to; ++k) sum += sum_of(record(neighbours, particle, slots, k));
+    return sum.y > 0.0 ? 0.5 * (own + sum.x / sum.y) : own;
 }
 
 void main() {
     int particle = gl_VertexID;
-    float own = light_of(particle);
-    float rootward = mix(own, mean_over(particle, 0, slots / 2), 0.75);
-    float tipward = mix(own, mean_over(particle, slots / 2, slots), 0.75);
-    v_light = vec4(rootward, 0.4 * own + 0.3 * (rootward + tipward), tipward, 1.0);
+    float own = record(received, particle, 1, 0).r;
+    float rootward = shared(particle, own, 0, slots / 2);
+    float tipward = shared(particle, own, slots / 2, slots);
+    v_light = vec4(rootward, 0.5 * (rootward + tipward), tipward, 1.0);
     gl_PointSize = 1.0;
     gl_Position = place_of(particle, rows);
 }

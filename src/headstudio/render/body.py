@@ -12,7 +12,8 @@ from ..scene.settings import Look
 from .context import load_program, set_uniforms
 from .openings import Openings
 from .scene_block import linear
-from .skin_paint import coarse_faces, paint, paint_part, scalp_cover
+from .skin_paint import coarse_faces, paint, scalp_cover, standing_out
+from .sky import hidden_from_sky
 from .view import View
 
 # Details below this [m] are left out of the body that casts shadows.
@@ -39,7 +40,11 @@ class Body:
         self._programs = programs
         self._roots_of: HairModel | None = None
         self._openings = Openings(head.skin)
-        skin = head.skin
+        skin, meshes = head.skin, [head.skin, *(part.mesh for part in head.parts)]
+        points = np.concatenate([mesh.vertices for mesh in meshes])
+        normals = np.concatenate([mesh.vertex_normals for mesh in meshes])
+        hidden = hidden_from_sky(context, skin, points, normals)
+        hidden_skin, *hidden_parts = np.split(hidden, np.cumsum([len(mesh.vertices) for mesh in meshes])[:-1])
         surface = np.concatenate([skin.vertices, skin.vertex_normals, head.head_weight[:, None]], axis=1)
         vertices = context.buffer(_floats(surface))
         self._cover = context.buffer(_bytes(scalp_cover(head, None)))
@@ -47,7 +52,7 @@ class Body:
             programs.skin,
             [
                 (vertices, "3f 3f 1f", "position", "normal", "head_weight"),
-                (context.buffer(_bytes(paint(head))), "4f1", "paint"),
+                (context.buffer(_bytes(np.column_stack([hidden_skin, paint(head)]))), "4f1", "paint"),
                 (self._cover, "1f1", "cover"),
             ],
             context.buffer(_indices(skin.faces)),
@@ -57,9 +62,9 @@ class Body:
             [(vertices, "3f 12x 1f", "position", "head_weight")],
             context.buffer(_indices(coarse_faces(skin, _SHADOW_DETAIL))),
         )
+        parts = [(part, self._part_array(part, cut_off)) for part, cut_off in zip(head.parts, hidden_parts)]
         # Lashes are translucent, and so the last.
-        parts = sorted(head.parts, key=lambda part: _KINDS[part.kind] == _KINDS["lashes"])
-        self._parts = [(part, self._part_array(part)) for part in parts]
+        self._parts = sorted(parts, key=lambda drawn: _KINDS[drawn[0].kind] == _KINDS["lashes"])
 
     def set_roots(self, hair: HairModel | None) -> None:
         """Darken the skin that ``hair`` grows from; sent again only for another model."""
@@ -97,13 +102,14 @@ class Body:
         set_uniforms(program, kind=_KINDS[kind])
         array.render()
 
-    def _part_array(self, part: Part) -> moderngl.VertexArray:
+    def _part_array(self, part: Part, hidden: Floats) -> moderngl.VertexArray:
         surface = np.concatenate([part.mesh.vertices, part.mesh.vertex_normals], axis=1)
+        painted = np.column_stack([hidden, standing_out(self.head, part)])
         return self._context.vertex_array(
             self._programs.part,
             [
                 (self._context.buffer(_floats(surface)), "3f 3f", "position", "normal"),
-                (self._context.buffer(_bytes(paint_part(self.head, part))), "2f1", "paint"),
+                (self._context.buffer(_bytes(painted)), "2f1", "paint"),
             ],
             self._context.buffer(_indices(part.mesh.faces)),
         )

@@ -32,7 +32,7 @@ class RecordTexture:
 
 
 def neighbour_records(links: Ints, count: int) -> tuple[np.dtype, NDArray[np.void]]:
-    """Who is linked to whom, for a shader: each particle's rootward and tipward neighbours, and itself to fill up.
+    """Who is linked to whom, for a shader: each particle's rootward and tipward neighbours, filled up with -1.
 
     links: pairs, the rootward one first, (m, 2). Returns the dtype and the records, (count,): two lists of the same
     length, a multiple of four.
@@ -42,7 +42,7 @@ def neighbour_records(links: Ints, count: int) -> tuple[np.dtype, NDArray[np.voi
     dtype = np.dtype([("rootward", "f4", slots), ("tipward", "f4", slots)])
     records = np.zeros(count, dtype)
     for name, of, to in (("rootward", links[:, 1], links[:, 0]), ("tipward", links[:, 0], links[:, 1])):
-        records[name] = np.arange(count)[:, None]
+        records[name] = -1
         order = np.argsort(of, kind="stable")
         owner = of[order]
         place = np.arange(len(owner)) - np.searchsorted(owner, owner)

@@ -1,11 +1,10 @@
-"""What the skin shader cannot see for itself, painted on the vertices once: occlusion, lips, brows, flush, scalp.
+"""What the skin shader cannot know by itself, painted on the vertices once: lips, brows, flush, scalp.
 
 Heads come with no texture, so the places that are not skin-coloured are found from the landmarks.
 """
 
 from __future__ import annotations
 
-import igl
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -13,8 +12,6 @@ from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..lcp.model import HairModel
 
-_OCCLUSION_RAYS = 48
-_OCCLUSION_DETAIL = 0.005
 _SCALP_REACH = (0.006, 0.016)
 
 
@@ -38,33 +35,16 @@ def coarse_faces(mesh: TriangleMesh, cell: float) -> Ints:
     return representatives[corners[whole]]
 
 
-def occlusion(mesh: TriangleMesh) -> Floats:
-    """How much of its own sky every vertex is cut off from by the mesh, 0 to 1, (n,).
-
-    Rays are sent from one vertex every 5 mm; the others take the mean of the nearest that face the same way.
-    """
-    seeds, _ = clustered(mesh.vertices, _OCCLUSION_DETAIL)
-    normals = mesh.vertex_normals
-    hidden = igl.ambient_occlusion(mesh.vertices, mesh.faces, mesh.vertices[seeds], normals[seeds], _OCCLUSION_RAYS)
-    distance, near = cKDTree(mesh.vertices[seeds]).query(mesh.vertices, k=8)
-    same_side = np.einsum("ni,nki->nk", normals, normals[seeds][near])
-    weight = np.clip(same_side, 1e-3, 1.0) ** 2 / (distance**2 + (0.5 * _OCCLUSION_DETAIL) ** 2)
-    return np.einsum("nk,nk->n", weight, hidden[near]) / weight.sum(axis=1)
-
-
 def paint(head: Head) -> Floats:
-    """Occlusion, lips, brows and flush of every vertex of the skin, 0 to 1, (n, 4)."""
+    """Lips, brows and flush of every vertex of the skin, 0 to 1, (n, 3)."""
     points, marks = head.skin.vertices, head.landmarks
-    return np.stack([occlusion(head.skin), _lips(points, marks), _brows(points, marks), _flush(points, marks)], axis=1)
+    return np.stack([_lips(points, marks), _brows(points, marks), _flush(points, marks)], axis=1)
 
 
-def paint_part(head: Head, part: Part) -> Floats:
-    """Of every vertex of a part: how much the skin hides it from its sky, and how far it stands out of the skin, 0 at the
-    root of a lash to 1 at its tip; (n, 2)."""
-    skin, mesh = head.skin, part.mesh
-    hidden = igl.ambient_occlusion(skin.vertices, skin.faces, mesh.vertices, mesh.vertex_normals, _OCCLUSION_RAYS)
-    distance, _ = cKDTree(skin.vertices).query(mesh.vertices)
-    return np.stack([hidden, distance / max(distance.max(), 1e-9)], axis=1)
+def standing_out(head: Head, part: Part) -> Floats:
+    """How far every vertex of a part stands out of the skin, 0 at the root of a lash to 1 at its tip, (n,)."""
+    distance, _ = cKDTree(head.skin.vertices).query(part.mesh.vertices)
+    return distance / max(distance.max(), 1e-9)
 
 
 def scalp_cover(head: Head, hair: HairModel | None) -> Floats:

@@ -61,10 +61,14 @@ def camera_view(camera: Camera, aspect: float) -> View:
 
 def light_view(look: Look, centre: Floats, radius: float) -> View:
     """The parallel projection from the light onto the sphere around ``centre`` [m] with ``radius`` [m]."""
-    to_light = orbit_direction(look.light_azimuth, look.light_height)
+    return parallel_view(orbit_direction(look.light_azimuth, look.light_height), centre, radius)
+
+
+def parallel_view(direction: Floats, centre: Floats, radius: float) -> View:
+    """The parallel projection from the unit ``direction`` onto the sphere around ``centre`` [m] with ``radius`` [m]."""
     projection = np.diag([1 / radius, 1 / radius, -1 / radius, 1.0])
     projection[2, 3] = -1.0
-    return _view(centre + radius * to_light, -to_light, projection, 0.0, 2 * radius)
+    return _view(centre + radius * direction, -direction, projection, 0.0, 2 * radius)
 
 
 def _view(eye: Floats, direction: Floats, projection: Floats, near: float, far: float, focal: float = 1.0) -> View:

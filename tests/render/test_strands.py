@@ -1,0 +1,122 @@
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from headstudio.head.frame import HeadFrame
+from headstudio.lcp.model import HairModel
+from headstudio.render.covered import shown_through_hair
+from headstudio.render.particle_texture import neighbour_records
+from headstudio.render.ribbons import farthest_first, lay_out_ribbons
+from headstudio.render.strands import SECTIONS, CurveBuilder, HairCurves, openness
+from headstudio.render.view import camera_view
+from headstudio.scene.settings import Camera
+from headstudio.scene.stage import HairOnStage
+
+from .stages import model_of
+
+
+def curves_of(model: HairModel, frame: HeadFrame | None = None, half_length: float = 0.03) -> HairCurves:
+    hair = HairOnStage(model, model.rest_positions, model.rest_directions)
+    return CurveBuilder(model).curves(hair, frame or HeadFrame(), half_length)
+
+
+def straight_hair(count: int) -> HairModel:
+    """Hair straight down from the origin, a particle every centimetre."""
+    arc = 0.01 * np.arange(count)
+    down = np.array([0.0, -1.0, 0.0])
+    return model_of(arc[:, None] * down, np.tile(down, (count, 1)), arc, np.zeros((count, 3)))
+
+
+def test_curve_of_straight_hair_is_straight_and_as_long_as_asked() -> None:
+    curves = curves_of(straight_hair(12), half_length=0.02)
+    middle = curves.path[6]
+    np.testing.assert_allclose(middle[:, [0, 2]], 0, atol=1e-12)
+    np.testing.assert_allclose(np.diff(middle[:, 1]), -0.01, atol=1e-12)
+    np.testing.assert_allclose(curves.along[6], np.linspace(-1, 1, SECTIONS), atol=1e-12)
+
+
+def test_curve_follows_its_neighbours_around_a_circle() -> None:
+    radius, step = 0.05, 0.2
+    angle = step * np.arange(8)
+    circle = radius * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    tangent = np.stack([-np.sin(angle), np.cos(angle), 0 * angle], axis=1)
+    model = model_of(circle, tangent, radius * angle, np.zeros((8, 3)))
+    curves = curves_of(model, half_length=radius * step)
+    np.testing.assert_allclose(np.linalg.norm(curves.path[4], axis=1), radius, rtol=5e-3)
+
+
+def test_curves_do_not_start_deeper_than_the_roots(hair_model: HairModel) -> None:
+    curves = curves_of(hair_model, half_length=0.05)
+    start = hair_model.arc_length + 0.05 * curves.along[:, 0]
+    assert start.min() >= hair_model.arc_length.min() - 1e-12
+    assert (curves.grown[hair_model.fixed, 0] == 0).all()
+    np.testing.assert_allclose(np.linalg.norm(curves.tangent, axis=2), 1, atol=1e-9)
+
+
+def test_curves_turn_with_the_head(hair_model: HairModel) -> None:
+    frame = HeadFrame(Rotation.from_rotvec([0.2, 0.9, -0.3]), np.array([0.1, 0.0, 0.2]))
+    still, turned = curves_of(hair_model), curves_of(hair_model, frame)
+    np.testing.assert_allclose(frame.to_world(still.path.reshape(-1, 3)), turned.path.reshape(-1, 3), atol=1e-12)
+    np.testing.assert_allclose(frame.rotation.apply(still.sideways), turned.sideways, atol=1e-12)
+
+
+def test_sideways_stays_across_hair_that_moved(hair_model: HairModel) -> None:
+    turned = Rotation.from_rotvec([0, 0, 1.2]).apply(hair_model.rest_directions)
+    curves = CurveBuilder(hair_model).curves(
+        HairOnStage(hair_model, hair_model.rest_positions, turned), HeadFrame(), 0.03
+    )
+    np.testing.assert_allclose(np.einsum("ni,ni->n", curves.sideways, curves.direction), 0, atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(curves.sideways, axis=1), 1, atol=1e-9)
+
+
+def test_ribbons_go_from_far_to_near(hair_model: HairModel) -> None:
+    view, half_width = camera_view(Camera(azimuth=0.4), 1.0), 0.007
+    ribbons, curves = lay_out_ribbons(hair_model, 3), curves_of(hair_model)
+    particle = ribbons["particle"].astype(int)
+    other = np.cross(curves.direction, curves.sideways)
+    middles = curves.position[particle] + half_width * (
+        ribbons["spread"][:, :1] * curves.sideways[particle] + ribbons["spread"][:, 1:] * other[particle]
+    )
+    order = farthest_first(ribbons, curves, half_width, view)
+    np.testing.assert_array_equal(np.sort(order), np.arange(3 * hair_model.count))
+    assert (np.diff(view.depth(middles[order])) <= 1e-9).all()
+
+
+def test_neighbour_records_name_every_link_once() -> None:
+    links = np.array([[0, 1], [0, 2], [1, 2], [2, 3], [0, 3], [1, 3]])
+    dtype, records = neighbour_records(links, 5)
+    assert dtype.itemsize % 16 == 0
+    assert sorted(records["rootward"][3]) == [-1, 0, 1, 2]
+    assert sorted(records["tipward"][0]) == [-1, 1, 2, 3]
+    assert (records["tipward"][4] == -1).all()
+
+
+def test_hair_before_hair_hides_it_little_by_little() -> None:
+    depth = 0.01 * np.arange(30)
+    down = np.tile([0.0, -1.0, 0.0], (30, 1))
+    positions = np.column_stack([np.zeros((30, 2)), -depth])
+    model = model_of(positions, down, np.full(30, 0.1), positions)
+    view = camera_view(Camera(azimuth=0.0, elevation=0.0, target_y=0.0), 1.0)
+    shown = shown_through_hair(curves_of(model, half_length=0.01), view, 0.05)
+    assert (np.diff(shown) <= 0).all()
+    assert shown[0] == 1
+    assert shown[-1] == 0
+    assert ((shown > 0) & (shown < 1)).any()
+
+
+def test_hair_side_by_side_hides_nothing() -> None:
+    positions = np.column_stack([np.linspace(-0.2, 0.2, 30), np.zeros((30, 2))])
+    model = model_of(positions, np.tile([0.0, -1.0, 0.0], (30, 1)), np.full(30, 0.1), positions)
+    view = camera_view(Camera(azimuth=0.0, elevation=0.0, target_y=0.0), 1.0)
+    assert (shown_through_hair(curves_of(model, half_length=0.01), view, 0.01) == 1).all()
+
+
+def test_surface_is_more_open_than_the_inside() -> None:
+    grid = np.stack(np.meshgrid(*[np.linspace(-0.05, 0.05, 11)] * 3), axis=-1).reshape(-1, 3)
+    model = model_of(grid, np.tile([0.0, -1.0, 0.0], (len(grid), 1)), np.full(len(grid), 0.1), grid)
+    open_ = openness(model)
+    inside = np.abs(grid).max(axis=1) < 0.02
+    corner = np.abs(grid).min(axis=1) > 0.045
+    assert open_[inside].max() < 0.2
+    assert open_[corner].min() > 0.8
