@@ -90,7 +90,7 @@ class Dialogs:
         title = "Keys and mouse"
         imgui.open_popup(title)
         centre = imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.appearing.value, (0.5, 0.5))
+        imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.always.value, (0.5, 0.5))
         shown, stays = imgui.begin_popup_modal(title, True, imgui.WindowFlags_.always_auto_resize.value)
         if not shown:
             self._keys_open = False
@@ -107,6 +107,9 @@ class Dialogs:
         imgui.end_popup()
 
 
+_NARROW = imgui.TableFlags_.sizing_fixed_fit.value | imgui.TableFlags_.no_host_extend_x.value
+
+
 class _Unsaved:
     """The question before unsaved work is given up."""
 
@@ -119,7 +122,7 @@ class _Unsaved:
         """Draw the question; True once it is answered."""
         imgui.open_popup(self.TITLE)
         centre = imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.appearing.value, (0.5, 0.5))
+        imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.always.value, (0.5, 0.5))
         if not imgui.begin_popup_modal(self.TITLE, None, imgui.WindowFlags_.always_auto_resize.value)[0]:
             return False
         answer: Callable[[], None] | None = None
@@ -152,7 +155,7 @@ def _stay() -> None:
 def _draw_pairs(ui: Ui, heading: str, pairs: Iterable[tuple[str, str]]) -> None:
     imgui.begin_group()
     ui.caption(heading)
-    if imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_fixed_fit.value):
+    if imgui.begin_table(heading, 2, _NARROW):
         for keys, meaning in pairs:
             imgui.table_next_row()
             imgui.table_next_column()

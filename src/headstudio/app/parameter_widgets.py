@@ -13,7 +13,7 @@ from ..params import Parameter
 from . import theme
 from .ui import Ui
 
-LABEL_SHARE = 0.42
+LABEL_SHARE = 0.43
 TYPED_RANGE = 1_000_000  # a whole number with more values than this is typed: no slider hits one of them
 
 

@@ -28,7 +28,7 @@ class Sizes:
     """Widths and heights on a plain screen, which the user changes by dragging the edges."""
 
     left: float = 252.0
-    right: float = 330.0
+    right: float = 346.0
     foot: float = 196.0
     panels: bool = True
 

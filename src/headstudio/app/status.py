@@ -33,7 +33,7 @@ def progress(ui: Ui, studio: Studio, view: Rect) -> None:
         return
     note = f"{NOTES.get(studio.builds.part, studio.builds.part)}   {studio.builds.seconds:.1f} s"
     width, height = ui.px(400), ui.px(44)
-    x, y = view.x + (view.width - width) / 2, view.y + ui.px(14)
+    x, y = view.x + (view.width - width) / 2, view.y + ui.px(50)
     canvas = imgui.get_window_draw_list()
     canvas.add_rect_filled((x, y), (x + width, y + height), theme.packed(theme.PANEL, 0.95), ui.px(6))
     canvas.add_rect((x, y), (x + width, y + height), theme.packed(theme.LINE), ui.px(6))

@@ -122,10 +122,10 @@ class Window:
         """What was drawn last, shape (height, width, 3), first row on top. Call between ``end_frame`` and the next."""
         size = glfw.get_framebuffer_size(self._handle)
         # By way of a framebuffer of our own: moderngl reads a window's through an attachment that it does not have.
+        # It is not released by hand: the context collects what nobody holds, and stumbles over what is gone already.
         copy = self.gl.simple_framebuffer(size, 4)
         self.gl.copy_framebuffer(copy, self.gl.screen)
         pixels = np.frombuffer(copy.read(components=3, alignment=1), np.uint8)
-        copy.release()
         self.gl.screen.use()
         return pixels.reshape(size[1], size[0], 3)[::-1].copy()
 

@@ -7,19 +7,23 @@ from dataclasses import replace
 import numpy as np
 from imgui_bundle import ImVec2Like
 from imgui_bundle import icons_fontawesome_6 as icons
+from numpy.typing import NDArray
 
+from ...head.frame import HeadFrame
 from ...head.hairline import default_curves
 from ...head.head import Head
 from ...head.mesh import Floats
 from ...head.scalp_curves import catmull_rom
 from .. import theme
+from ..picking import View
 from ..studio import Studio
 from ..ui import Ui
 from .tool import Canvas, Pointer, Tool
 
 Curves = tuple[tuple[tuple[float, float, float], ...], ...]
 GRAB_RADIUS = 12.0
-SAMPLES = 48
+SAMPLES = 12  # points of the drawn line for each handle
+FAINT = 0.2
 
 
 class ShapeScalp(Tool):
@@ -40,7 +44,7 @@ class ShapeScalp(Tool):
             return False
         handles = np.concatenate([np.array(curve) for curve in curves])
         gaps = np.linalg.norm(pointer.view.project(pointer.frame.to_world(handles)) - [pointer.x, pointer.y], axis=1)
-        gaps[~self._facing(handles, pointer)] = np.inf
+        gaps[~_seen(pointer.view, pointer.frame, handles, handles.mean(axis=0))] = np.inf
         nearest = int(np.nanargmin(gaps))
         if not gaps[nearest] < GRAB_RADIUS:
             return False
@@ -72,14 +76,18 @@ class ShapeScalp(Tool):
             self.studio.work.change(replace(document, scalp=replace(document.scalp, curves=())), "Default curves")
 
     def draw(self, canvas: Canvas) -> None:
-        """The four curves, and a handle at each control point."""
-        for curve in self._curves() or ():
-            points = np.array(curve)
+        """The four curves, and a handle at each control point; faint where the head is in between."""
+        curves = [np.array(curve) for curve in self._curves() or ()]
+        if not curves:
+            return
+        middle = np.concatenate(curves).mean(axis=0)
+        for points in curves:
             line = catmull_rom(points)(np.linspace(0, 1, SAMPLES * (len(points) - 1)))
-            self._draw_line(canvas, line)
-            for x, y in self._on_screen(canvas, points):
-                canvas.drawing.add_circle_filled((x, y), 6.5 * canvas.scale, theme.packed(theme.GROUND))
-                canvas.drawing.add_circle_filled((x, y), 4.5 * canvas.scale, theme.packed(theme.ACCENT))
+            _draw_line(canvas, line, middle)
+            for (x, y), seen in zip(_on_screen(canvas, points), _seen(canvas.view, canvas.frame, points, middle)):
+                strength = 1.0 if seen else FAINT
+                canvas.drawing.add_circle_filled((x, y), 6.5 * canvas.scale, theme.packed(theme.GROUND, strength))
+                canvas.drawing.add_circle_filled((x, y), 4.5 * canvas.scale, theme.packed(theme.ACCENT, strength))
 
     def _curves(self) -> Curves | None:
         if self.studio.grown is None:
@@ -93,20 +101,31 @@ class ShapeScalp(Tool):
             self._placed = (head, _as_tuples(default_curves(head)))
         return self._placed[1]
 
-    def _draw_line(self, canvas: Canvas, line: Floats) -> None:
-        shown: list[ImVec2Like] = [(float(x), float(y)) for x, y in self._on_screen(canvas, line)]
-        for colour, width in ((theme.packed(theme.GROUND, 0.6), 4.0), (theme.packed(theme.ACCENT), 2.0)):
-            canvas.drawing.add_polyline(shown, colour, width * canvas.scale, 0)
 
-    def _on_screen(self, canvas: Canvas, points: Floats) -> Floats:
-        shown = canvas.view.project(canvas.frame.to_world(points)) + np.array([canvas.x, canvas.y])
-        return shown[np.isfinite(shown).all(axis=1)]
+def _draw_line(canvas: Canvas, line: Floats, middle: Floats) -> None:
+    """A curve on the head, in runs that are seen or hidden."""
+    points, seen = _on_screen(canvas, line), _seen(canvas.view, canvas.frame, line, middle)
+    turns = np.flatnonzero(np.diff(seen.astype(np.int8))) + 1
+    for start, end in zip([0, *turns], [*turns, len(line)]):
+        run: list[ImVec2Like] = [(float(x), float(y)) for x, y in points[start : end + 1]]
+        strength = 1.0 if seen[start] else FAINT
+        for colour, width in (
+            (theme.packed(theme.GROUND, 0.6 * strength), 4.0),
+            (theme.packed(theme.ACCENT, strength), 2.0),
+        ):
+            canvas.drawing.add_polyline(run, colour, width * canvas.scale, 0)
 
-    def _facing(self, points: Floats, pointer: Pointer) -> np.ndarray:
-        """Which points lie on the side of the head that is seen."""
-        centre = points.mean(axis=0)
-        outward = pointer.frame.rotation.apply(points - centre)
-        return np.einsum("ij,ij->i", outward, pointer.view.eye - pointer.frame.to_world(points)) > 0
+
+def _on_screen(canvas: Canvas, points: Floats) -> Floats:
+    """Where points of the head [m], (n, 3), are in the window, (n, 2); those behind the camera far away."""
+    shown = canvas.view.project(canvas.frame.to_world(points)) + np.array([canvas.x, canvas.y])
+    return np.nan_to_num(shown, nan=-1e4)
+
+
+def _seen(view: View, frame: HeadFrame, points: Floats, middle: Floats) -> NDArray[np.bool_]:
+    """Which points of the head [m], (n, 3), lie on the side that is seen; ``middle`` is inside the skull."""
+    outward = frame.rotation.apply(points - middle)
+    return np.einsum("ij,ij->i", outward, view.eye - frame.to_world(points)) > 0
 
 
 def _as_tuples(curves: tuple[Floats, ...]) -> Curves:
