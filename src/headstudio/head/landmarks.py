@@ -86,8 +86,16 @@ def _crown(profile: Profile, height: float) -> Floats:
 
 
 def _chin(profile: Profile, top: float, height: float) -> Floats:
-    """The lower corner of the chin: farthest down and forward where the chin must be."""
-    return _farthest(profile.between(top - 1.06 * height, top - 0.90 * height), (-0.9, 0.44))
+    """The lowest point of the chin in front: on the corner that stands out between mouth and throat."""
+    below = profile.between(top - 1.12 * height, top - 0.82 * height)
+    throat, mouth = below.front_at(float(below.level[0])), below.front_at(float(below.level[-1]))
+    corner = _farthest(below, _across(throat, mouth))[1]
+    return _farthest(profile.between(corner - 0.05 * height, corner + 0.05 * height), (-0.9, 0.44))
+
+
+def _across(lower: Floats, upper: Floats) -> tuple[float, float]:
+    """The direction (y, z) square to the line between two points of the middle, forward."""
+    return float(lower[2] - upper[2]), float(upper[1] - lower[1])
 
 
 def _nasion(profile: Profile, nose: Floats, height: float) -> Floats:

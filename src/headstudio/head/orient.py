@@ -36,6 +36,7 @@ _WORST_MISFIT = 0.045
 # A head deviates clearly more when its back is taken for its face; an egg does not.
 _FACE_SHOWS = 1.15
 _BOWED = 1.25
+_FLAT = 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +76,12 @@ def find_stance(mesh: TriangleMesh) -> Stance | None:
     None when it looks like a head in no stance.
     """
     points = sample_surface(mesh, _SAMPLES)
+    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    if spread[2] < _FLAT * spread[0]:
+        return None
     stances = []
     for plane in mirror_planes(points[:_MIRRORED], 2):
-        plane = _along_axis(plane)
+        plane = _along_axis(plane, points.mean(axis=0))
         stances += [_best_of(points, plane, up, side) for up in _ups(plane.normal) for side in (1.0, -1.0)]
     best = min(stances, key=lambda stance: stance.misfit)
     facing_away = [stance.misfit for stance in stances if stance.rotation[2] @ best.rotation[2] < -0.8]
@@ -86,13 +90,14 @@ def find_stance(mesh: TriangleMesh) -> Stance | None:
     return _levelled(points, best, stances)
 
 
-def _along_axis(plane: MirrorPlane) -> MirrorPlane:
-    """The plane square to an axis of the file when it all but is."""
+def _along_axis(plane: MirrorPlane, middle: Floats) -> MirrorPlane:
+    """The plane square to an axis of the file when it all but is, turned about the middle of the points."""
     axis = np.eye(3)[np.abs(plane.normal).argmax()]
     cosine = float(plane.normal @ axis)
     if abs(cosine) < np.cos(_SAME_AXIS):
         return plane
-    return MirrorPlane(axis, plane.offset * np.sign(cosine), plane.error)
+    axis = axis * np.sign(cosine)
+    return MirrorPlane(axis, plane.offset + float((axis - plane.normal) @ middle), plane.error)
 
 
 def _levelled(points: Floats, best: Stance, stances: list[Stance]) -> Stance:

@@ -25,8 +25,8 @@ _LASH_REACH = 1.8
 def pieces_of(mesh: TriangleMesh) -> list[TriangleMesh]:
     """The connected pieces of a mesh, the largest surface first."""
     piece = face_components(mesh.faces)
-    order = np.argsort(-np.bincount(piece, mesh.face_areas))
-    return [submesh(mesh, np.nonzero(piece == k)[0]) for k in order]
+    faces_by_piece = np.split(np.argsort(piece, kind="stable"), np.cumsum(np.bincount(piece))[:-1])
+    return [submesh(mesh, faces_by_piece[k]) for k in np.argsort(-np.bincount(piece, mesh.face_areas))]
 
 
 def submesh(mesh: TriangleMesh, faces: Ints) -> TriangleMesh:
@@ -58,20 +58,26 @@ class SortedPieces:
 def sort_pieces(pieces: list[TriangleMesh], top: float, height: float) -> SortedPieces:
     """Sort the loose pieces beside the head's skin [m], upright, mirrored at x = 0.
 
+    Each eyeball is a part by itself; of teeth, lashes and the like all pieces make one part together.
+
     top: level of the crown [m]; height: of the head [m].
     """
-    large = [piece for piece in pieces if piece.face_areas.sum() > _CRUMB * height**2]
-    eyes, rest, shells = _eyes(large, top, height)
-    skin, parts = [], []
+    eyes, rest, shells = _eyes(pieces, top, height)
+    skin: list[TriangleMesh] = []
+    loose: dict[str, list[TriangleMesh]] = {}
+    crumbs = 0
     for piece in rest:
         kind = _kind(piece, eyes, top, height)
-        if kind is None:
+        if kind in (None, "other") and piece.face_areas.sum() < _CRUMB * height**2:
+            crumbs += 1
+        elif kind is None:
             skin.append(piece)
         else:
-            parts.append(Part(kind, piece))
+            loose.setdefault(kind, []).append(piece)
+    parts = [Part(kind, joined(alike)) for kind, alike in loose.items()]
     notes = []
-    if len(pieces) > len(large):
-        notes.append(f"{len(pieces) - len(large):,} tiny loose pieces dropped")
+    if crumbs:
+        notes.append(f"{crumbs:,} tiny loose pieces dropped")
     if shells:
         notes.append(f"{shells} inner shells of the eyes dropped")
     return SortedPieces(skin, eyes + parts, notes)
