@@ -21,6 +21,7 @@ from ..lcp.wind import AirState, Wind
 from .builder import Built
 from .document import Document
 from .measures import contact_figures, hair_figures, head_figures, parting_figures
+from .overlays import overlays_of
 from .stage import HairOnStage, Stage
 
 STEP_RATE = 60.0
@@ -191,7 +192,9 @@ class Simulation:
         directions = (1.0 - share) * self.before.directions + share * self.state.directions
         length = np.linalg.norm(directions, axis=1, keepdims=True)
         hair = HairOnStage(self.built.hair, positions, directions / np.maximum(length, 1e-9))
-        return Stage(self.built.head, self._frame_between(share), hair)
+        frame = self._frame_between(share)
+        marks = overlays_of(self.document.look, hair, self.built.body, frame, self.air)
+        return Stage(self.built.head, frame, hair, marks)
 
     def _frame_between(self, share: float) -> HeadFrame:
         first, second = self.frame_before, self.frame
