@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,7 @@ from .contact import Touching, lifted, stop_at_body, stop_at_reach, touching
 from .direction import updated_directions
 from .inertia import apparent_acceleration
 from .interactions import hair_hair_forces
-from .model import HairModel
+from .model import HairModel, HairState
 from .neighbours import NeighbourList
 from .settings import DynamicsSettings
 from .springs import LinkState, Springs
@@ -23,11 +24,20 @@ from .timing import Timer
 
 @dataclass(frozen=True, eq=False)
 class Circumstances:
-    """What a step finds: the settings, the frame of the head at its end, and forces from outside [N], (n, 3) or None."""
+    """What a step finds: the settings, the frame of the head at its end, and forces from outside [N], (n, 3) or None.
+
+    motion: the frame of the head at any time [s], for solvers that go through a step in parts; without it the head is
+    taken to have its frame all the time.
+    """
 
     settings: DynamicsSettings
     frame: HeadFrame
     outside: Floats | None = None
+    motion: Callable[[float], HeadFrame] | None = None
+
+    def at(self, time: float) -> HeadFrame:
+        """The frame of the head at a time within the step [s]."""
+        return self.motion(time) if self.motion else self.frame
 
 
 class Dynamics:
@@ -41,29 +51,28 @@ class Dynamics:
         self.neighbours = NeighbourList(2.0 * model.smoothing_length)
         self.timer = Timer()
 
-    def soft_acceleration(
-        self,
-        now: Circumstances,
-        positions: Floats,
-        velocities: Floats,
-        directions: Floats,
-        dt: float,
-    ) -> Floats:
-        """Everything but springs and air friction [m/s^2], (n, 3): what an explicit step can carry.
-
-        positions [m], velocities [m/s] and directions: (n, 3). dt: the step to come [s].
-        """
-        acceleration = apparent_acceleration(now.frame, positions, velocities, now.settings.gravity)
-        acceleration += self.bending.acceleration(positions, now.settings)
+    def outer_acceleration(self, state: HairState, now: Circumstances, dt: float) -> Floats:
+        """What hair and the outside do to hair [m/s^2], (n, 3): forces that change little within dt, a step [s]."""
+        acceleration = np.zeros_like(state.positions)
         if now.outside is not None:
             acceleration += now.outside / self.model.mass[:, None]
         if now.settings.interactions:
             with self.timer.stage("neighbours"):
-                pairs = self.neighbours.pairs(positions)
+                pairs = self.neighbours.pairs(state.positions)
             with self.timer.stage("interactions"):
-                force, _ = hair_hair_forces(self.model, now.settings, positions, velocities, directions, pairs, dt)
+                force, _ = hair_hair_forces(self.model, now.settings, state, pairs, dt)
                 acceleration += force / self.model.mass[:, None]
         return acceleration
+
+    def inner_acceleration(
+        self, settings: DynamicsSettings, frame: HeadFrame, positions: Floats, velocities: Floats
+    ) -> Floats:
+        """What a single hair feels besides its springs and still air [m/s^2], (n, 3): gravity, inertia and bending.
+
+        positions [m] and velocities [m/s]: (n, 3).
+        """
+        apparent = apparent_acceleration(frame, positions, velocities, settings.gravity)
+        return apparent + self.bending.acceleration(positions, settings)
 
     def touch(self, positions: Floats, frame: HeadFrame) -> Touching:
         """Where the body is, seen from every particle."""

@@ -16,6 +16,8 @@ solve it.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy import sparse
 
@@ -25,6 +27,7 @@ from .model import HairState
 from .settings import DynamicsSettings
 from .springs import LinkState
 
+PARTS = 2
 _TOLERANCE = 1e-3
 _MOST_ITERATIONS = 60
 
@@ -38,19 +41,32 @@ class ImplicitSolver:
         self._matrix = _SpringMatrix(dynamics)
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
-        """The state one step of dt [s] later, by section 3.1 of the paper."""
-        dynamics, settings = self.dynamics, now.settings
+        """The state one step of dt [s] later, by section 3.1 of the paper.
+
+        Hair-hair interactions are the dear part and change slowly: they are found once. Springs, inertia and contact go
+        through the step in ``PARTS``.
+        """
+        dynamics = self.dynamics
+        outer = dynamics.outer_acceleration(state, now, dt)
+        directions = state.directions
+        for _ in range(PARTS):
+            state = self._part(state, now, outer, dt / PARTS)
+        return replace(state, directions=dynamics.turn(state.positions, directions, now.settings))
+
+    def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:
+        """One BDF2 step of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
+        dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time + dt)
         model = dynamics.model
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
-        x_before, v_before = state.before or self._earlier(state, now, dt)
+        x_before, v_before = state.before or self._earlier(state, now, outer, dt)
         x_hat, v_hat = (4.0 * x - x_before) / 3.0, (4.0 * v - v_before) / 3.0
         g = 2.0 * dt / 3.0
 
         ahead = x_hat + g * v
-        soft = dynamics.soft_acceleration(now, ahead, v, state.directions, dt)
         links = dynamics.links(ahead, settings)
-        force = mass * soft + dynamics.springs.forces(links, v, settings)
+        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v))
+        force += dynamics.springs.forces(links, v, settings)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         with dynamics.timer.stage("solve"):
             inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
@@ -60,24 +76,23 @@ class ImplicitSolver:
 
         free = v + change
         # The plane that a particle would run into tells how far from it the step starts.
-        touch = dynamics.touch(x_hat + g * free, now.frame)
+        touch = dynamics.touch(x_hat + g * free, frame)
         distance = touch.distance - g * np.einsum("ij,ij->i", free - touch.velocity, touch.normals)
         v_new = dynamics.hold(x_hat, free, touch, distance, settings.body_friction, g)
-        x_new = dynamics.lift(x_hat + g * v_new, now.frame)
-        directions = dynamics.turn(x_new, state.directions, settings)
+        x_new = dynamics.lift(x_hat + g * v_new, frame)
         # A held particle has a kink in its path. Where it was held it looks back on a straight one, or it would bounce.
         kink = _unit(v_new - free)
         before = (x + _along(kink, x_new - dt * v_new - x), v + _along(kink, v_new - v))
-        return HairState(x_new, v_new, directions, state.time + dt, before)
+        return HairState(x_new, v_new, state.directions, state.time + dt, before)
 
-    def _earlier(self, state: HairState, now: Circumstances, dt: float) -> tuple[Floats, Floats]:
-        """A position and velocity for the step before the first, such that the first is of second order, too."""
-        dynamics, settings = self.dynamics, now.settings
+    def _earlier(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> tuple[Floats, Floats]:
+        """A position and velocity for the part before the first, such that the first is of second order, too."""
+        dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time)
         x, v = state.positions, state.velocities
-        touch = dynamics.touch(x, now.frame)
-        acceleration = dynamics.soft_acceleration(now, x, v, state.directions, dt)
+        touch = dynamics.touch(x, frame)
         springs = dynamics.springs.forces(dynamics.links(x, settings), v, settings)
-        acceleration += springs / dynamics.model.mass[:, None] - settings.air_friction * v
+        acceleration = outer + dynamics.inner_acceleration(settings, frame, x, v) - settings.air_friction * v
+        acceleration += springs / dynamics.model.mass[:, None]
         held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, settings.body_friction, dt)
         acceleration = (held - v) / dt
         return x - dt * v + 0.5 * dt * dt * acceleration, v - dt * acceleration

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 from .kernel import kernel, kernel_slope
-from .model import HairModel
+from .model import HairModel, HairState
 from .settings import DynamicsSettings
 
 # Rate at which collision damping at its default stops hair that approaches on all sides [1/s].
@@ -22,21 +22,18 @@ _PARALLEL = 0.1
 def hair_hair_forces(
     model: HairModel,
     settings: DynamicsSettings,
-    positions: Floats,
-    velocities: Floats,
-    directions: Floats,
+    state: HairState,
     pairs: Ints,
     dt: float,
 ) -> tuple[Floats, Floats]:
     """Forces of neighbouring hair on every particle [N], (n, 3), and the densities [kg/m^3], (n,).
 
-    positions [m], velocities [m/s], directions (unit): (n, 3). pairs: every pair closer than 2 h_2 once, (p, 2).
-    dt: the step to come [s]; forces too strong for it are weakened to what it can carry, and vanish from the sum as dt
-    goes to zero.
+    pairs: every pair closer than 2 h_2 once, (p, 2). dt: the step to come [s]; forces too strong for it are weakened to
+    what it can carry, and the weakening vanishes with dt.
     """
     h = model.smoothing_length
     i, j = pairs.T
-    columns = np.ascontiguousarray(positions.T)
+    columns = np.ascontiguousarray(state.positions.T)
     x = columns[:, j] - columns[:, i]
     distance = np.sqrt(_dot(x, x))
     near = np.flatnonzero(distance < 2.0 * h)
@@ -46,7 +43,7 @@ def hair_hair_forces(
     density = mass * kernel(np.zeros(1), h) + _gather(mass[j] * weight, mass[i] * weight, i, j, count)
 
     radial = _pressure(model, settings, density, i, j, distance, dt) / np.maximum(distance, 1e-9)
-    drag = _contact_drag(model, settings, density, velocities, directions, i, j, x, weight, dt)
+    drag = _contact_drag(model, settings, density, state, i, j, x, weight, dt)
     force = radial * x + drag
     return np.stack([_gather(part, -part, i, j, count) for part in force], axis=1), density
 
@@ -64,7 +61,7 @@ def _pressure(
     both = over_square[i] + over_square[j]
     closeness = kernel(distance, h) / kernel(np.array(model.spacing), h)
     pulling = np.maximum(-both, 0.0)
-    both = both + _ANTI_CLUMPING * pulling * closeness**4
+    both += _ANTI_CLUMPING * pulling * closeness**4
     # dW/dx_i = -W' x_ij / |x_ij|, so repulsion (P > 0, W' < 0) points away from j.
     return mass[i] * mass[j] * both * kernel_slope(distance, h)
 
@@ -73,8 +70,7 @@ def _contact_drag(
     model: HairModel,
     settings: DynamicsSettings,
     density: Floats,
-    velocities: Floats,
-    directions: Floats,
+    state: HairState,
     i: Ints,
     j: Ints,
     x: Floats,
@@ -82,8 +78,8 @@ def _contact_drag(
     dt: float,
 ) -> Floats:
     """Eq. 17 and 18: collision along d_n, friction along d_t, the force on i per pair [N], (3, p)."""
-    t = np.ascontiguousarray(directions.T)
-    moving = np.ascontiguousarray(velocities.T)
+    t = np.ascontiguousarray(state.directions.T)
+    moving = np.ascontiguousarray(state.velocities.T)
     v = moving[:, j] - moving[:, i]
     t_i, t_j = t[:, i], t[:, j]
     normal = np.stack(

@@ -34,14 +34,15 @@ class LeapfrogSolver:
         return state
 
     def _small_step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
-        dynamics, settings = self.dynamics, now.settings
+        dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time + dt)
         x, v = state.positions, state.velocities
         mass = dynamics.model.mass[:, None]
-        touch = dynamics.touch(x, now.frame)
-        acceleration = dynamics.soft_acceleration(now, x, v, state.directions, dt)
+        touch = dynamics.touch(x, frame)
+        acceleration = dynamics.outer_acceleration(state, now, dt)
+        acceleration += dynamics.inner_acceleration(settings, frame, x, v)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v = dynamics.hold(x, v, touch, touch.distance, settings.body_friction, dt)
-        x = dynamics.lift(x + dt * v, now.frame)
+        x = dynamics.lift(x + dt * v, frame)
         return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)

@@ -17,6 +17,7 @@ _KEPT_ROOTWARD = 3
 # Shortest rest length as a part of the distance along the hair, and weakest link as a part of a particle's strongest.
 _CLOSEST = 0.5
 _FAINTEST = 0.15
+_CANDIDATES = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +67,7 @@ def connect(
     loose = np.flatnonzero(~carried & ~fixed)
     if len(loose) == 0:
         return links
-    anchors = _anchor(loose, positions, directions, arc_length)
+    anchors = _anchor(loose, positions, directions, roots, arc_length)
     return _join(_select(links, ~np.isin(_names(links.pairs), _names(anchors.pairs))), anchors)
 
 
@@ -110,15 +111,15 @@ def _measure(positions: Floats, directions: Floats, pairs: Ints) -> Links:
     return Links(pairs, length, a, a * length, cosines)  # strength: eq. 5
 
 
-def _anchor(loose: Ints, positions: Floats, directions: Floats, arc_length: Floats) -> Links:
-    """Links from particles that hang on nothing to the nearest one with a smaller arc length, in space."""
-    tree = cKDTree(positions)
-    nearby = tree.query(positions[loose], k=min(64, len(positions)))[1]
+def _anchor(loose: Ints, positions: Floats, directions: Floats, roots: Floats, arc_length: Floats) -> Links:
+    """Links from particles that hang on nothing to the one next to them on their hair (eq. 3) that is nearer to the root."""
+    place = np.column_stack([roots, arc_length])
+    nearby = cKDTree(place).query(place[loose], k=min(_CANDIDATES, len(place)))[1]
     rootward = arc_length[nearby] < arc_length[loose][:, None]
-    # A column of nearer neighbours that all lie tipward gives way to the root particle closest by.
-    fixed = np.flatnonzero(arc_length < 0)
-    last_resort = fixed[cKDTree(positions[fixed]).query(positions[loose])[1]]
     chosen = nearby[np.arange(len(loose)), np.argmax(rootward, axis=1)]
+    # Where all of those lie tipward, the root particle closest by is left.
+    fixed = np.flatnonzero(arc_length < 0)
+    last_resort = fixed[cKDTree(place[fixed]).query(place[loose])[1]]
     chosen = np.where(rootward.any(axis=1), chosen, last_resort)
     offset = positions[loose] - positions[chosen]
     length = np.linalg.norm(offset, axis=1)

@@ -119,7 +119,7 @@ class Simulation:
         self._follow_script()
         state = self._after_jump(self.state, frame, dt)
         air, outside = self._outside_forces(state, frame, dt)
-        now = Circumstances(self.document.lcp, frame, outside)
+        now = Circumstances(self.document.lcp, frame, outside, motion)
         with np.errstate(all="ignore"):
             stepped = self.solver.step(state, now, dt)
         if _is_sound(stepped):
