@@ -110,7 +110,7 @@ def simulate(
     project: Project = None,
     motion: MotionOption = None,
     seconds: Annotated[float, typer.Option(min=0.01, max=600, help="How long [s].")] = 4.0,
-    fps: Annotated[float, typer.Option(min=1, max=240, help="Frames a second.")] = 30.0,
+    fps: Annotated[float, typer.Option(min=4, max=240, help="Frames a second.")] = 30.0,
     particles: ParticlesOption = None,
     out: Annotated[Path | None, typer.Option(help="A film (.mp4, .mov, .mkv), or a folder for pictures.")] = None,
     stats: Annotated[Path | None, typer.Option(help="A JSON file for the figures of every frame.")] = None,

@@ -65,6 +65,8 @@ def test_every_command_has_help(headstudio, command):
         (("simulate", "--motion", "missing.csv"), "missing.csv: No such file"),
         (("simulate", "--particles", "7"), "hair.particles goes from 100"),
         (("simulate", "--seed", "-1"), "hair.seed goes from 0"),
+        (("simulate", "--out", "film.avi"), "a film ends in .mp4"),
+        (("simulate", "--stats", "."), "Is a directory"),
         (("inspect", "nobody.stl"), "nobody.stl"),
         (("compare", "a.png", "b.png"), "a.png: there is no such file"),
     ],

@@ -22,12 +22,14 @@ from ..render.renderer import Renderer
 from ..scene.builder import Builder
 from ..scene.document import Document
 from .reporting import counting, results
-from .simulate import write_report
+from .simulate import check_can_be_written, write_report
 from .versions import versions
 
 
 def bench(document: Document, counts: tuple[int, ...], frames: int, out: Path | None) -> None:
     """Measure the animation for each count of particles; print a table and write JSON to ``out`` unless it is None."""
+    if out is not None:
+        check_can_be_written(out)
     renderer, builder = Renderer(headless_context()), Builder()
     with counting("measuring", len(counts) * frames_to_draw(frames)) as progress:
         tick = functools.partial(progress.advance, progress.task_ids[0])

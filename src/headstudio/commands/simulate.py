@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import math
+import os
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -11,7 +13,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..io.film import Film, open_film
+from ..io.film import FILM_SUFFIXES, Film, open_film
+from ..params import ParameterError
 from ..scene.builder import Built
 from ..scene.document import Document
 from ..scene.files import write_atomically
@@ -87,6 +90,10 @@ class Run:
 
 def simulate(document: Document, motion: Motion, shot: Shot) -> None:
     """Film a document in motion and write its figures. Raises what building, drawing and writing raise."""
+    if shot.film is not None:
+        check_is_film(shot.film)
+    if shot.stats is not None:
+        check_can_be_written(shot.stats)
     photographer = Photographer(shot.size) if shot.film else None
     run = Run(document, build(document))
     with ExitStack() as stack:
@@ -103,9 +110,26 @@ def simulate(document: Document, motion: Motion, shot: Shot) -> None:
         say(line)
 
 
-def write_report(report: dict[str, Any], path: Path) -> None:
-    """Write a report as JSON; makes the folder. Raises OSError."""
+def check_is_film(path: Path) -> None:
+    """Raise ParameterError for a name that looks like a film and would become a folder."""
+    suffix = path.suffix.lower()
+    if suffix and suffix not in FILM_SUFFIXES and not path.is_dir():
+        raise ParameterError(
+            f"a film ends in {', '.join(FILM_SUFFIXES)}, a folder of pictures in nothing; got {path.name!r}"
+        )
+
+
+def check_can_be_written(path: Path) -> None:
+    """Make the folder of a file that will be written at the end. Raises OSError now, rather than after the work."""
     path.parent.mkdir(parents=True, exist_ok=True)
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if not os.access(path.parent, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+
+
+def write_report(report: dict[str, Any], path: Path) -> None:
+    """Write a report as JSON. Raises OSError."""
     write_atomically(path, json.dumps(report, indent=1, allow_nan=False).encode() + b"\n")
 
 
