@@ -8,6 +8,10 @@ from .makehuman import makehuman
 from .mannequin import mannequin
 
 
+BUILT_IN = ("makehuman", "mannequin")
+"""The names of the heads that need no file."""
+
+
 def load_head(source: str, *, age: float = 0.2, masculine: float = 0.0) -> Head:
     """The head named ``source``: "makehuman", "mannequin", or the path of a mesh (OBJ, PLY, STL, OFF, GLB).
 
