@@ -7,7 +7,6 @@ from .head import Head
 from .makehuman import makehuman
 from .mannequin import mannequin
 
-
 BUILT_IN = ("makehuman", "mannequin")
 """The names of the heads that need no file."""
 
