@@ -11,10 +11,10 @@ from scipy.interpolate import LinearNDInterpolator
 from .mesh import Floats, Ints, TriangleMesh
 from .subdivision import QuadMesh
 
-_HAIRS = 52
+_HAIRS = 36
 _LEVELS = 4
-_ROOT_WIDTH = 0.012
-"""Width of a hair at its root, as a part of the length of the strip."""
+_ROOT_WIDTH = 1.1 / _HAIRS
+"""Width of a hair at its root, as a part of the length of the strip: the roots merge into a line along the lid."""
 
 # From hair to hair length and slant vary with the golden ratio: even, without a visible period.
 _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -38,7 +38,7 @@ def lash_hairs(strip: QuadMesh, eye_centre: Floats) -> TriangleMesh:
 
     level = np.linspace(0.0, 1.0, _LEVELS)
     middle = root[:, None] + (tip - root)[:, None] * level
-    half_width = 0.5 * _ROOT_WIDTH * (1.0 - level**2)
+    half_width = 0.5 * _ROOT_WIDTH * (1.0 - level) ** 0.8
     sides = np.stack([middle - half_width, middle + half_width], axis=2)
     height = np.broadcast_to((length[:, None] * level)[..., None], sides.shape)
     margin = 1e-3
