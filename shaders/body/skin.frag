@@ -1,13 +1,14 @@
 #version 330
 #include "common/scene.glsl"
 #include "common/shadow.glsl"
+#include "common/strands.glsl"
 uniform vec3 skin_colour;
 uniform vec3 hair_colour;
 in vec3 v_place;
 in vec3 v_rest;
 in vec3 v_normal;
 in vec4 v_paint;  // occlusion, lips, brows, flush
-in float v_cover;
+in float v_cover;  // how densely hair stands
 out vec4 colour;
 
 // Light creeps around the edge of the shadow, red the farthest, since red travels farthest under the skin.
@@ -20,10 +21,6 @@ float lobe(float n_h, float n_l, float n_v, float roughness) {
     return a2 / (3.14159 * d * d) / (4.0 * mix(n_l, 1.0, k) * mix(n_v, 1.0, k));
 }
 
-float grain(vec3 p) {
-    return fract(sin(dot(floor(p), vec3(12.9898, 78.233, 37.719))) * 43758.5453);
-}
-
 void main() {
     vec3 n = normalize(v_normal);
     vec3 to_eye = normalize(eye.xyz - v_place);
@@ -34,11 +31,11 @@ void main() {
     vec3 albedo = skin_colour;
     albedo *= mix(vec3(1.0), vec3(1.06, 0.80, 0.78), flush);
     albedo = mix(albedo, skin_colour * vec3(0.86, 0.44, 0.46), lips * 0.85);
-    // Brow hairs lie outwards along the arch: fine strokes, not a stain.
-    float stroke = grain(vec3(v_rest.x * 900.0 + v_rest.y * 500.0, v_rest.y * 150.0, 0.0));
-    albedo = mix(albedo, hair_colour * 0.35, smoothstep(0.15, 0.75, brows * (0.65 + 0.6 * stroke)) * 0.85);
-    float ground_cover = smoothstep(0.0, 1.0, v_cover);
-    albedo = mix(albedo, hair_colour * 0.30, ground_cover * 0.92);
+    // Brow hairs lie outwards and up: fine strokes, not a stain. Where long hair grows the ground is dark between it.
+    float stroke = texture(strands, vec2(9.0 * (0.6 * abs(v_rest.x) - 0.8 * v_rest.y), 0.5)).r;
+    float brow = smoothstep(0.2, 0.8, brows * (0.45 + 1.1 * stroke)) * 0.9;
+    float cover = smoothstep(0.0, 1.0, v_cover);
+    albedo = mix(albedo, hair_colour * 0.35, max(brow, cover));
 
     float lit = light_at(v_place + n * 0.0015, 0.0015 + 0.003 * (1.0 - max(dot(n, l), 0.0)), 0.004);
     vec3 soft_lit = vec3(pow(lit, 0.75), lit, lit);
@@ -57,9 +54,10 @@ void main() {
     float fresnel = 0.028 + 0.972 * pow(1.0 - max(dot(h, to_eye), 0.0), 5.0);
     float rough = mix(0.48, 0.34, lips);
     float shine = mix(lobe(n_h, front, n_v, rough), lobe(n_h, front, n_v, rough * 0.58), 0.28 + 0.2 * lips);
-    shine *= fresnel * front * lit * 3.14159 * (1.0 - 0.9 * max(ground_cover, brows));
+    shine *= fresnel * front * lit * 3.14159 * (1.0 - max(brow, cover));
     float rim = 0.028 + 0.30 * pow(1.0 - n_v, 5.0);
     vec3 sheen = mix(ground.rgb, sky.rgb, clamp(reflect(-to_eye, n).y * 0.5 + 0.5, 0.0, 1.0)) * rim * open * open;
 
-    colour = vec4(albedo * (radiance.rgb * diffuse + soft) + radiance.rgb * shine + sheen * (1.0 - ground_cover), 1.0);
+    vec3 mirrored = radiance.rgb * shine + sheen * (1.0 - cover);
+    colour = vec4(albedo * (radiance.rgb * diffuse + soft) + mirrored, 1.0);
 }

@@ -21,7 +21,7 @@ void main() {
     float wide = cosine / (0.125 * gloss * (1.0 - cosine) + cosine);
     wide *= wide;
     float narrow = wide * wide * wide * wide;
-    vec3 gleam = radiance.rgb * v_gleam.z * (0.12 * narrow + 0.9 * wide * hair_colour);
+    vec3 gleam = radiance.rgb * v_gleam.z * (0.07 * narrow + 0.9 * wide * hair_colour);
 
     colour = vec4((v_body.rgb + gleam) * (0.25 + 1.5 * strand.g) * alpha, alpha);
 }

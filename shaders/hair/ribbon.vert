@@ -17,7 +17,7 @@ out vec2 v_at;
 out vec4 v_body;    // light that comes back from all sides of a strand; side of the ribbon
 out vec4 v_gleam;   // cosines of the strand to the light and to the eye, strength of the highlight, opacity
 
-const int sections = 5;
+const int sections = 7;
 const int texels = 2 * sections + 1;
 const float window_width = 0.11;
 const float least_sine = 0.3;
@@ -26,12 +26,12 @@ const vec3 above = vec3(0.0, 0.96, 0.28);
 void main() {
     vec4 across_hair = record(ribbons, ribbon, 2, 0);
     vec4 look = record(ribbons, ribbon, 2, 1);
-    int particle = int(look.z + 0.5);
+    int curve = int(look.z + 0.5);
     int section = int(corner.y);
-    vec4 path = record(curves, particle, texels, section);
-    vec3 middle = record(curves, particle, texels, sections + sections / 2).xyz;
-    vec4 tangent = record(curves, particle, texels, sections + section);
-    vec4 side = record(curves, particle, texels, 2 * sections);
+    vec4 path = record(curves, curve, texels, section);
+    vec3 middle = record(curves, curve, texels, sections + sections / 2).xyz;
+    vec4 tangent = record(curves, curve, texels, sections + section);
+    vec4 side = record(curves, curve, texels, 2 * sections);
     vec3 other = cross(middle, side.xyz);
     float along = path.w;
 
@@ -46,7 +46,7 @@ void main() {
     // Locks run to a point at both ends.
     place += across * corner.x * half_width * narrowing * (1.0 - 0.45 * along * along);
 
-    vec3 lights = record(light, particle, 1, 0).rgb;
+    vec3 lights = record(light, int(look.w + 0.5), 1, 0).rgb;
     float received = mix(lights.g, along < 0.0 ? lights.r : lights.b, abs(along));
 
     // Goldman's directionality: light that comes back against light that is sent through.

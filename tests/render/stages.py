@@ -65,7 +65,7 @@ def falling_hair(strands: int = 130, per_strand: int = 9, length: float = 0.16) 
     roots = CENTRE + RADII * outward
     arc = np.concatenate([[-0.01], np.linspace(0.005, length, per_strand - 1)])
     # Out of the scalp, then more and more along gravity.
-    bend = np.clip(arc / 0.05, 0, 1)[None, :, None]
+    bend = np.clip((arc + 0.02) / 0.05, 0, 1)[None, :, None]
     direction = (1 - bend) * outward[:, None] + bend * (0.35 * outward[:, None] * [1, 0, 1] + [0, -1, 0])
     direction /= np.linalg.norm(direction, axis=2, keepdims=True)
     steps = np.diff(arc, prepend=0.0)[None, :, None] * direction

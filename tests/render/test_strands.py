@@ -4,16 +4,18 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from headstudio.head.frame import HeadFrame
+from headstudio.head.head import Head
 from headstudio.lcp.model import HairModel
 from headstudio.render.covered import shown_through_hair
 from headstudio.render.particle_texture import neighbour_records
 from headstudio.render.ribbons import farthest_first, lay_out_ribbons
 from headstudio.render.strands import SECTIONS, CurveBuilder, HairCurves, openness
+from headstudio.render.undergrowth import Undergrowth
 from headstudio.render.view import camera_view
 from headstudio.scene.settings import Camera
 from headstudio.scene.stage import HairOnStage
 
-from .stages import model_of
+from .stages import CENTRE, RADII, model_of
 
 
 def curves_of(model: HairModel, frame: HeadFrame | None = None, half_length: float = 0.03) -> HairCurves:
@@ -32,7 +34,7 @@ def test_curve_of_straight_hair_is_straight_and_as_long_as_asked() -> None:
     curves = curves_of(straight_hair(12), half_length=0.02)
     middle = curves.path[6]
     np.testing.assert_allclose(middle[:, [0, 2]], 0, atol=1e-12)
-    np.testing.assert_allclose(np.diff(middle[:, 1]), -0.01, atol=1e-12)
+    np.testing.assert_allclose(np.diff(middle[:, 1]), -0.04 / (SECTIONS - 1), atol=1e-12)
     np.testing.assert_allclose(curves.along[6], np.linspace(-1, 1, SECTIONS), atol=1e-12)
 
 
@@ -72,15 +74,31 @@ def test_sideways_stays_across_hair_that_moved(hair_model: HairModel) -> None:
 
 def test_ribbons_go_from_far_to_near(hair_model: HairModel) -> None:
     view, half_width = camera_view(Camera(azimuth=0.4), 1.0), 0.007
-    ribbons, curves = lay_out_ribbons(hair_model, 3), curves_of(hair_model)
-    particle = ribbons["particle"].astype(int)
+    ribbons, curves = lay_out_ribbons(hair_model.count, 3, np.zeros(0, int)), curves_of(hair_model)
+    curve = ribbons["curve"].astype(int)
     other = np.cross(curves.direction, curves.sideways)
-    middles = curves.position[particle] + half_width * (
-        ribbons["spread"][:, :1] * curves.sideways[particle] + ribbons["spread"][:, 1:] * other[particle]
+    middles = curves.position[curve] + half_width * (
+        ribbons["spread"][:, :1] * curves.sideways[curve] + ribbons["spread"][:, 1:] * other[curve]
     )
     order = farthest_first(ribbons, curves, half_width, view)
     np.testing.assert_array_equal(np.sort(order), np.arange(3 * hair_model.count))
     assert (np.diff(view.depth(middles[order])) <= 1e-9).all()
+
+
+def test_undergrowth_lies_on_the_scalp_and_moves_with_the_head(egg: Head, hair_model: HairModel) -> None:
+    undergrowth = Undergrowth(egg, hair_model)
+    still = undergrowth.curves(HeadFrame())
+    assert len(undergrowth) > 50
+    height = np.sqrt((((still.path - CENTRE) / RADII) ** 2).sum(axis=2))
+    assert np.abs(height - 1).max() < 0.08
+    np.testing.assert_allclose(np.linalg.norm(still.tangent, axis=2), 1, atol=1e-9)
+    # On the sides and the back hair lies downwards.
+    lying = still.position[:, 1] < CENTRE[1] + 0.05
+    assert lying.any()
+    assert (still.direction[lying, 1] < 0).mean() > 0.9
+    frame = HeadFrame(Rotation.from_rotvec([0.2, 0.9, -0.3]), np.array([0.1, 0.0, 0.2]))
+    turned = undergrowth.curves(frame)
+    np.testing.assert_allclose(frame.to_world(still.path.reshape(-1, 3)), turned.path.reshape(-1, 3), atol=1e-12)
 
 
 def test_neighbour_records_name_every_link_once() -> None:

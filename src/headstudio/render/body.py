@@ -67,7 +67,7 @@ class Body:
         self._parts = sorted(parts, key=lambda drawn: _KINDS[drawn[0].kind] == _KINDS["lashes"])
 
     def set_roots(self, hair: HairModel | None) -> None:
-        """Darken the skin that ``hair`` grows from; sent again only for another model."""
+        """Cover the skin that ``hair`` grows from; sent again only for another model."""
         if hair is not self._roots_of:
             self._cover.write(_bytes(scalp_cover(self.head, hair)))
             self._roots_of = hair
@@ -77,14 +77,14 @@ class Body:
         self._shadow.render()
 
     def draw(self, view: View, look: Look) -> None:
-        """The body into the framebuffer in use; the shadow map is texture 0 and the light map texture 1."""
+        """The body into the framebuffer in use; texture 0 is the shadow map, 1 the light map, 2 the strands."""
         colours = {
             "skin_colour": tuple(linear(look.skin_colour)),
             "hair_colour": tuple(linear(look.hair_colour)),
             "iris_colour": tuple(linear(look.iris_colour)),
         }
         for program in (self._programs.skin, self._programs.part):
-            set_uniforms(program, shadow_map=0, light_map=1, **colours)
+            set_uniforms(program, shadow_map=0, light_map=1, strands=2, **colours)
         # Half of the triangles face away, and their inside is only seen through an opening.
         if not self._openings.shown_to(view.eye):
             self._context.enable(moderngl.CULL_FACE)

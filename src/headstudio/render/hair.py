@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ..head.frame import HeadFrame
+from ..head.head import Head
 from ..lcp.model import HairModel
 from ..resources import asset
 from ..scene.settings import Look
@@ -18,8 +19,9 @@ from .hair_light import HairLight, LightPrograms
 from .particle_texture import RecordTexture
 from .ribbons import CURVE_DTYPE, RIBBON_DTYPE, curve_texels, farthest_first, lay_out_ribbons, ribbon_narrowing
 from .scene_block import linear
-from .strands import SECTIONS, CurveBuilder, HairCurves, openness
+from .strands import SECTIONS, CurveBuilder, HairCurves, joined, openness
 from .targets import LightTargets
+from .undergrowth import Undergrowth
 from .view import View
 
 _DRAWN_DTYPE = np.dtype([("ribbon", "i4"), ("shown", "f4")])
@@ -45,19 +47,24 @@ class HairPrograms:
 
 
 class Hair:
-    """The hair of one model as ``per_particle`` ribbons for each particle; made once per model."""
+    """The hair of one model on one head, as ``per_particle`` ribbons for each particle; made once for them."""
 
-    def __init__(self, context: moderngl.Context, programs: HairPrograms, model: HairModel, per_particle: int) -> None:
-        self.model = model
-        self.per_particle = per_particle
+    def __init__(
+        self, context: moderngl.Context, programs: HairPrograms, head: Head, model: HairModel, per_particle: int
+    ) -> None:
+        self._head = head
+        self._model = model
+        self._per_particle = per_particle
         self.curves: HairCurves | None = None
         self._programs = programs
         self._builder = CurveBuilder(model)
-        self._openness = openness(model)
+        self._undergrowth = Undergrowth(head, model)
+        self._openness = np.concatenate([openness(model), np.full(len(self._undergrowth), 0.6)])
         self._placed: tuple[HairOnStage, HeadFrame, float] | None = None
-        self._laid_out = lay_out_ribbons(model, per_particle)
-        self.light = HairLight(context, programs.light, model, self._laid_out["window"][::per_particle])
-        self._curve_texture = RecordTexture(context, CURVE_DTYPE, model.count)
+        self._laid_out = lay_out_ribbons(model.count, per_particle, self._undergrowth.source)
+        windows = self._laid_out["window"][: model.count * per_particle : per_particle]
+        self.light = HairLight(context, programs.light, model, windows)
+        self._curve_texture = RecordTexture(context, CURVE_DTYPE, len(self._openness))
         self._ribbon_texture = RecordTexture(context, RIBBON_DTYPE, len(self._laid_out))
         self._ribbon_texture.write(self._laid_out)
         self._drawn = context.buffer(reserve=_DRAWN_DTYPE.itemsize * len(self._laid_out))
@@ -65,6 +72,10 @@ class Hair:
             programs.ribbon,
             [(context.buffer(_strip().tobytes()), "2f", "corner"), (self._drawn, "1i 1f /i", "ribbon", "shown")],
         )
+
+    def suits(self, head: Head, model: HairModel, per_particle: int) -> bool:
+        """True if this is the hair of that model on that head."""
+        return self._head is head and self._model is model and self._per_particle == per_particle
 
     def place(self, hair: HairOnStage, frame: HeadFrame, look: Look) -> None:
         """Take the particles of this instant; sent again only when they, the head or the length changed."""
@@ -76,7 +87,8 @@ class Hair:
             or placed[2] != self._placed[2]
         ):
             self.curves = self._builder.curves(hair, frame, half_length)
-            self._curve_texture.write(curve_texels(self.curves, self._openness))
+            self._all_curves = joined(self.curves, self._undergrowth.curves(frame))
+            self._curve_texture.write(curve_texels(self._all_curves, self._openness))
             self._placed = placed
 
     def shed_light(self, light: View, look: Look, maps: LightTargets) -> None:
@@ -91,8 +103,9 @@ class Hair:
         """The ribbons, farthest first (thesis 3.4, lines 17 to 21), into the framebuffer in use."""
         assert self.curves is not None
         half_width = self._half_width(look)
-        order = farthest_first(self._laid_out, self.curves, half_width, view)
-        shown = shown_through_hair(self.curves, view, 2 * half_width)[order // self.per_particle]
+        order = farthest_first(self._laid_out, self._all_curves, half_width, view)
+        curve = self._laid_out["curve"][order].astype(np.int64)
+        shown = shown_through_hair(self._all_curves, view, 2 * half_width)[curve]
         drawn = np.zeros(np.count_nonzero(shown), _DRAWN_DTYPE)
         drawn["ribbon"], drawn["shown"] = order[shown > 0], shown[shown > 0]
         self._drawn.orphan()
@@ -109,7 +122,7 @@ class Hair:
             curves=5,
             ribbons=6,
             half_width=half_width,
-            narrowing=ribbon_narrowing(self.per_particle),
+            narrowing=ribbon_narrowing(self._per_particle),
             hair_colour=tuple(linear(look.hair_colour)),
             opacity=look.hair_opacity,
             transmission=look.forward_scatter,
@@ -124,12 +137,12 @@ class Hair:
         """
         assert self.curves is not None
         distance = max(float(np.median(view.depth(self.curves.position))), view.near)
-        pixels = ribbon_narrowing(self.per_particle) * half_width * picture_height * view.focal / distance
+        pixels = ribbon_narrowing(self._per_particle) * half_width * picture_height * view.focal / distance
         texels = WINDOW_WIDTH * self._programs.strands.width
-        return float(np.log2(max(texels / max(pixels, 1e-6), 1.0)))
+        return float(max(np.log2(texels / max(pixels, 1e-6)) - 0.8, 0.0))
 
     def _half_width(self, look: Look) -> float:
-        return 0.5 * look.billboard_width * self.model.spacing
+        return 0.5 * look.billboard_width * self._model.spacing
 
 
 def _strip() -> NDArray[np.float32]:

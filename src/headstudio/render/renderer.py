@@ -95,6 +95,7 @@ class Renderer:
             self._shed_light(hair, light, look, maps)
         maps.depth.use(0)
         maps.map.use(1)
+        self._hair_programs.strands.use(2)
         with timer.stage("body"):
             self._draw_body(body if look.show_head else None, view, look, targets)
         with timer.stage("hair"), self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
@@ -123,8 +124,8 @@ class Renderer:
         self._body.set_roots(hair.model if hair else None)
         if hair is None or hair.model.count == 0:
             return self._body, None
-        if self._hair is None or self._hair.model is not hair.model or self._hair.per_particle != look.ribbons:
-            self._hair = Hair(self.context, self._hair_programs, hair.model, look.ribbons)
+        if self._hair is None or not self._hair.suits(stage.head, hair.model, look.ribbons):
+            self._hair = Hair(self.context, self._hair_programs, stage.head, hair.model, look.ribbons)
         self._hair.place(hair, stage.frame, look)
         return self._body, self._hair
 

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats, Ints
-from ..lcp.model import HairModel
 from .strands import SECTIONS, HairCurves
 from .view import View
 
@@ -17,18 +16,20 @@ CURVE_DTYPE = np.dtype(
 the openness in w."""
 
 RIBBON_DTYPE = np.dtype(
-    [("spread", "f4", 2), ("lean", "f4", 2), ("window", "f4"), ("tone", "f4"), ("particle", "f4"), ("_unused", "f4")]
+    [("spread", "f4", 2), ("lean", "f4", 2), ("window", "f4"), ("tone", "f4"), ("curve", "f4"), ("lit_as", "f4")]
 )
 """What one ribbon keeps for ever, as texels. spread: place across the hair in half widths of the particle's billboard;
 lean: how its direction departs from the curve's; window of the strand texture; tone: how much lighter its strands are
-than most, in standard deviations; particle: whose it is."""
+than most, in standard deviations; curve: which one it follows; lit_as: the particle whose light falls on it."""
 
 _GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
 
 
-def lay_out_ribbons(model: HairModel, per_particle: int) -> NDArray[np.void]:
-    """The ribbons of all particles, particle by particle, of ``RIBBON_DTYPE``, shape (n * per_particle,)."""
-    n, k = model.count, np.arange(per_particle)
+def lay_out_ribbons(count: int, per_particle: int, undergrowth: Ints) -> NDArray[np.void]:
+    """The ribbons of ``count`` particles, particle by particle, then one for each curve of the undergrowth, of
+    ``RIBBON_DTYPE``. undergrowth: the particles that these take their light from, (c,).
+    """
+    n, k = count, np.arange(per_particle)
     rng = np.random.default_rng(0)
     out = np.zeros((n, per_particle), RIBBON_DTYPE)
     # A sunflower around the particle, turned by a random angle of its own.
@@ -39,8 +40,13 @@ def lay_out_ribbons(model: HairModel, per_particle: int) -> NDArray[np.void]:
     out["window"] = rng.uniform(0, 1, (n, per_particle))
     # Locks of hair share most of their colour, ribbons of a lock differ a little.
     out["tone"] = 0.8 * rng.normal(size=(n, per_particle)) + 0.6 * rng.normal(size=(n, 1))
-    out["particle"] = np.arange(n)[:, None]
-    return out.reshape(-1)
+    out["curve"] = out["lit_as"] = np.arange(n)[:, None]
+    short = np.zeros(len(undergrowth), RIBBON_DTYPE)
+    short["window"] = rng.uniform(0, 1, len(short))
+    short["tone"] = rng.normal(0, 0.5, len(short))
+    short["curve"] = n + np.arange(len(short))
+    short["lit_as"] = undergrowth
+    return np.concatenate([out.reshape(-1), short])
 
 
 def ribbon_narrowing(per_particle: int) -> float:
@@ -49,18 +55,16 @@ def ribbon_narrowing(per_particle: int) -> float:
 
 
 def farthest_first(ribbons: NDArray[np.void], curves: HairCurves, half_width: float, view: View) -> Ints:
-    """The order in which ribbons are drawn: by the depth of their middles, farthest first, (n * per_particle,).
+    """The order in which ribbons are drawn: by the depth of their middles, farthest first, (r,).
 
     half_width: of a particle's billboard [m], the unit of ``spread``.
     """
-    per_particle = len(ribbons) // len(curves.position)
+    curve = ribbons["curve"].astype(np.int64)
     side = curves.sideways @ view.forward
     other = np.cross(curves.direction, curves.sideways) @ view.forward
-    spread = ribbons["spread"].reshape(-1, per_particle, 2)
-    depth = view.depth(curves.position)[:, None] + half_width * (
-        spread[..., 0] * side[:, None] + spread[..., 1] * other[:, None]
-    )
-    return np.argsort(-depth.ravel(), kind="stable")
+    spread = ribbons["spread"]
+    aside = spread[:, 0] * side[curve] + spread[:, 1] * other[curve]
+    return np.argsort(-(view.depth(curves.position)[curve] + half_width * aside), kind="stable")
 
 
 def curve_texels(curves: HairCurves, openness: Floats) -> NDArray[np.void]:

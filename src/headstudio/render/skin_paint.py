@@ -12,6 +12,7 @@ from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..lcp.model import HairModel
 
+# Skin nearer than this to a root [m] is covered, and bare beyond the second.
 _SCALP_REACH = (0.006, 0.016)
 
 
@@ -49,7 +50,7 @@ def standing_out(head: Head, part: Part) -> Floats:
 
 def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
     """How densely hair roots stand on the skin, 0 to 1, (n,): the ground that hair grows from is never bare skin."""
-    if hair is None:
+    if hair is None or hair.count == 0:
         return np.zeros(len(head.skin.vertices))
     distance, _ = cKDTree(hair.root_points).query(head.skin.vertices)
     near, far = _SCALP_REACH

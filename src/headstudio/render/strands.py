@@ -7,7 +7,7 @@ two neighbours far towards the root and towards the tip, and the billboards bend
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from scipy.sparse import csr_array, diags_array
@@ -18,9 +18,10 @@ from ..head.mesh import Floats, Ints
 from ..lcp.model import HairModel
 from ..scene.stage import HairOnStage
 
-SECTIONS = 5
-"""Places on the curve: two towards the root, the particle itself, two towards the tip."""
+SECTIONS = 7
+"""Places on the curve: as many towards the root as towards the tip, and the particle itself."""
 
+_MIDDLE = SECTIONS // 2
 _NEIGHBOURS_ASKED = 24
 # Arc lengths [m] between which hair fades in: ribbons start softly, and a few millimetres beside their own root.
 _LEAVES_SCALP = (-0.002, 0.014)
@@ -67,15 +68,15 @@ class CurveBuilder:
         tipward = self._directions(self._tipward_mean, direction)
         path, tangent = np.empty((2, len(position), SECTIONS, 3))
         along = np.empty((len(position), SECTIONS))
-        path[:, 2], tangent[:, 2], along[:, 2] = position, direction, 0.0
+        path[:, _MIDDLE], tangent[:, _MIDDLE], along[:, _MIDDLE] = position, direction, 0.0
         reach = np.minimum(half_length, self._depth)
         for sign, directions, length in ((-1, rootward, reach), (1, tipward, np.full(len(position), half_length))):
-            for k in (1, 2):
-                here, before = 2 + sign * k, 2 + sign * (k - 1)
-                tangent[:, here] = _at(directions, 0.5 * k * length / self._hop)
-                step = 0.25 * sign * length[:, None] * (tangent[:, here] + tangent[:, before])
+            for k in range(1, _MIDDLE + 1):
+                here, before = _MIDDLE + sign * k, _MIDDLE + sign * (k - 1)
+                tangent[:, here] = _at(directions, k / _MIDDLE * length / self._hop)
+                step = 0.5 * sign / _MIDDLE * length[:, None] * (tangent[:, here] + tangent[:, before])
                 path[:, here] = path[:, before] + step
-                along[:, here] = 0.5 * sign * k * length / half_length
+                along[:, here] = sign * k / _MIDDLE * length / half_length
         from_scalp = self.model.arc_length[:, None] + half_length * along
         grown = np.clip((from_scalp - _LEAVES_SCALP[0]) / (_LEAVES_SCALP[1] - _LEAVES_SCALP[0]), 0.0, 1.0)
         return HairCurves(position, direction, self._sideways(hair.directions) @ turn, path, tangent, along, grown)
@@ -95,6 +96,12 @@ class CurveBuilder:
         cosine = np.einsum("ni,ni->n", rest, direction)
         along = np.einsum("ni,ni->n", side, direction) / np.maximum(1 + cosine, 1e-3)
         return unit(side - along[:, None] * (rest + direction))
+
+
+def joined(first: HairCurves, second: HairCurves) -> HairCurves:
+    """The curves of both, the first ones first."""
+    names = [field.name for field in fields(HairCurves)]
+    return HairCurves(*(np.concatenate([getattr(first, name), getattr(second, name)]) for name in names))
 
 
 def openness(model: HairModel) -> Floats:
