@@ -17,6 +17,7 @@ from .inertia import apparent_acceleration
 from .interactions import hair_hair_forces
 from .model import HairModel, HairState
 from .neighbours import NeighbourList
+from .parting import Parting
 from .settings import DynamicsSettings
 from .springs import LinkState, Springs
 from .timing import Timer
@@ -27,13 +28,14 @@ class Circumstances:
     """What a step finds: the settings, the frame of the head at its end, and forces from outside [N], (n, 3) or None.
 
     motion: the frame of the head at any time [s], for solvers that go through a step in parts; without it the head is
-    taken to have its frame all the time.
+    taken to have its frame all the time. parting: hands that hold the hair apart.
     """
 
     settings: DynamicsSettings
     frame: HeadFrame
     outside: Floats | None = None
     motion: Callable[[float], HeadFrame] | None = None
+    parting: Parting | None = None
 
     def at(self, time: float) -> HeadFrame:
         """The frame of the head at a time within the step [s]."""
@@ -85,14 +87,16 @@ class Dynamics:
             return self.springs.at(positions, settings.elastic_modulus)
 
     def hold(
-        self, start: Floats, velocities: Floats, touch: Touching, distance: Floats, friction: float, dt: float
+        self, start: Floats, velocities: Floats, touch: Touching, distance: Floats, now: Circumstances, dt: float
     ) -> Floats:
-        """Velocities [m/s] after body and reach have had their say, (n, 3).
+        """Velocities [m/s] after hands, body and reach have had their say, (n, 3).
 
         A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s].
         """
         with self.timer.stage("contact"):
-            velocities = stop_at_body(velocities, touch, distance, friction, dt)
+            if now.parting is not None:
+                velocities = now.parting.guided(start, velocities)
+            velocities = stop_at_body(velocities, touch, distance, now.settings.body_friction, dt)
             velocities = stop_at_reach(self.model, start, velocities, touch, distance, dt)
         velocities[self.model.fixed] = 0.0
         return velocities

@@ -17,7 +17,9 @@ from .neighbours import find_pairs
 from .settings import HairSettings
 
 # Of the mean distance to the nearest neighbours: h_1 "a little larger", h_2 "a little smaller" than it.
-_LINK_SMOOTHING = 1.25
+_LINK_SMOOTHING = 1.4
+# Roots this much of the mean distance apart still share strands.
+_SAME_STRANDS = 0.8
 _HAIR_SMOOTHING = 0.9
 _NEAREST = 6
 _BEAM_JOINTS = 64
@@ -38,7 +40,7 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
     # Hair that falls over other hair lies denser in space than in (u, v, s), where it is the next of its own strands.
     strand_spacing = _mean_distance(np.column_stack([roots, arc_length]))
     link_smoothing, hair_smoothing = _LINK_SMOOTHING * strand_spacing, _HAIR_SMOOTHING * spacing
-    links = connect(positions, directions, roots, arc_length, link_smoothing, strand_spacing)
+    links = connect(positions, directions, roots, arc_length, link_smoothing, _SAME_STRANDS * strand_spacing)
     fixed = arc_length < 0
     # Poisson discs sample the volume evenly, so each particle stands for as much hair as any other.
     mass = np.full(len(arc_length), settings.mass / max(np.count_nonzero(~fixed), 1))

@@ -78,7 +78,7 @@ class ImplicitSolver:
         # The plane that a particle would run into tells how far from it the step starts.
         touch = dynamics.touch(x_hat + g * free, frame)
         distance = touch.distance - g * np.einsum("ij,ij->i", free - touch.velocity, touch.normals)
-        v_new = dynamics.hold(x_hat, free, touch, distance, settings.body_friction, g)
+        v_new = dynamics.hold(x_hat, free, touch, distance, now, g)
         x_new = dynamics.lift(x_hat + g * v_new, frame)
         # A held particle has a kink in its path. Where it was held it looks back on a straight one, or it would bounce.
         kink = _unit(v_new - free)
@@ -93,7 +93,7 @@ class ImplicitSolver:
         springs = dynamics.springs.forces(dynamics.links(x, settings), v, settings)
         acceleration = outer + dynamics.inner_acceleration(settings, frame, x, v) - settings.air_friction * v
         acceleration += springs / dynamics.model.mass[:, None]
-        held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, settings.body_friction, dt)
+        held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
         acceleration = (held - v) / dt
         return x - dt * v + 0.5 * dt * dt * acceleration, v - dt * acceleration
 

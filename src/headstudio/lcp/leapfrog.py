@@ -43,6 +43,6 @@ class LeapfrogSolver:
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
-        v = dynamics.hold(x, v, touch, touch.distance, settings.body_friction, dt)
+        v = dynamics.hold(x, v, touch, touch.distance, now, dt)
         x = dynamics.lift(x + dt * v, frame)
         return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)

@@ -119,7 +119,7 @@ class Simulation:
         self._follow_script()
         state = self._after_jump(self.state, frame, dt)
         air, outside = self._outside_forces(state, frame, dt)
-        now = Circumstances(self.document.lcp, frame, outside, motion)
+        now = Circumstances(self.document.lcp, frame, outside, motion, self.parting)
         with np.errstate(all="ignore"):
             stepped = self.solver.step(state, now, dt)
         if _is_sound(stepped):
@@ -141,20 +141,16 @@ class Simulation:
             self.release()
 
     def _outside_forces(self, state: HairState, frame: HeadFrame, dt: float) -> tuple[AirState, Floats | None]:
-        """The air after the step, and forces of hands and air on hair [N], (n, 3), head frame."""
-        forces: Floats | None = None
-        if self.parting is not None:
-            forces = self.parting.forces(self.built.hair, state.positions, state.velocities)
+        """The air after the step, and the forces of the air on hair [N], (n, 3), head frame; None in still air."""
         if not (self.document.wind.on or self.document.motion.kind == "wind"):
-            return self.wind.still_air(), forces
+            return self.wind.still_air(), None
         world = frame.to_world(state.positions)
         spin = np.cross(frame.angular_velocity, world - frame.translation)
         velocities = frame.rotation.apply(state.velocities) + frame.velocity + spin
         with self.dynamics.timer.stage("wind"):
             air, exchange = self.wind.step(self.air, self.document.wind, frame, world, velocities, state.time, dt)
         self.air_to_hair, self.hair_to_air = exchange.hair.sum(axis=0), exchange.air.sum(axis=0)
-        blown = frame.rotation.inv().apply(exchange.hair) / dt
-        return air, blown if forces is None else forces + blown
+        return air, frame.rotation.inv().apply(exchange.hair) / dt
 
     def _after_jump(self, state: HairState, frame: HeadFrame, dt: float) -> HairState:
         """Hair goes along at rest when the head is put elsewhere, instead of being torn after it."""
