@@ -59,8 +59,8 @@ def _standing(mesh: TriangleMesh) -> TriangleMesh:
     graph = sparse.coo_array((np.ones(len(border)), tuple(border.T)), shape=(count, count))
     _, label = sparse.csgraph.connected_components(graph, directed=False)
     opening, member = np.unique(label[border[:, 0]], return_inverse=True)
-    middle = np.stack([np.bincount(member, low[border[:, 0], k]) for k in range(3)], axis=1)
-    middle = middle[: len(opening)] / np.bincount(member, minlength=len(opening))[:, None]
+    sums = np.stack([np.bincount(member, low[border[:, 0], k], len(opening)) for k in range(3)], axis=1)
+    middle = sums / np.bincount(member, minlength=len(opening))[:, None]
     a, b = border.T
     wall = [np.column_stack([b, a, a + count]), np.column_stack([b, a + count, b + count])]
     floor = np.column_stack([b + count, a + count, 2 * count + member])

@@ -16,7 +16,8 @@ from .body import Body
 from .model import HairModel
 
 # Hair this much longer than its arc length is drawn back: it stretches no further, however it is pulled.
-LONGEST_REACH = 1.03
+LONGEST_REACH = 1.025
+_LAST_REACH = 1.04
 # Time in which hair below the surface comes out again [s]. As a force (eq. 3.24) it would lose against a stiff spring.
 _EMERGENCE = 0.03
 _DEEPEST = 0.002  # that hair may be below the surface at the end of a step [m]
@@ -68,10 +69,17 @@ def stop_at_body(velocities: Floats, touch: Touching, distance: Floats, friction
     return velocities + (impulse + emerging)[:, None] * touch.normals - braked[:, None] * sliding
 
 
-def lifted(positions: Floats, touch: Touching) -> Floats:
-    """Positions [m], (n, 3), none deeper than ``_DEEPEST`` below its plane: what one step could not stop is put back."""
+def put_back(model: HairModel, positions: Floats, touch: Touching) -> Floats:
+    """Positions [m], (n, 3), with what one step could not stop put back.
+
+    None is deeper than ``_DEEPEST`` below its plane, then none further from its root than ``_LAST_REACH`` times its length.
+    """
     excess = np.maximum(np.minimum(touch.keep, 0.0) - _DEEPEST - touch.distance, 0.0)
-    return positions + excess[:, None] * touch.normals
+    positions = positions + excess[:, None] * touch.normals
+    from_root = positions - model.root_points
+    reach = np.sqrt(np.einsum("ij,ij->i", from_root, from_root))
+    share = np.minimum(1.0, _LAST_REACH * model.arc_length / np.maximum(reach, 1e-12))
+    return np.where(model.fixed[:, None], positions, model.root_points + share[:, None] * from_root)
 
 
 def stop_at_reach(

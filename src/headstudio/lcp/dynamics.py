@@ -11,7 +11,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
 from .bending import Bending
 from .body import Body
-from .contact import Touching, lifted, stop_at_body, stop_at_reach, touching
+from .contact import Touching, put_back, stop_at_body, stop_at_reach, touching
 from .direction import updated_directions
 from .inertia import apparent_acceleration
 from .interactions import hair_hair_forces
@@ -101,12 +101,11 @@ class Dynamics:
         velocities[self.model.fixed] = 0.0
         return velocities
 
-    def lift(self, positions: Floats, frame: HeadFrame) -> Floats:
-        """Positions [m], (n, 3), with what ended up deep in the body put back to its surface."""
+    def put_back(self, positions: Floats, frame: HeadFrame) -> Floats:
+        """Positions [m], (n, 3), with what ended up deep in the body or beyond its reach put back."""
         touch = self.touch(positions, frame)
         with self.timer.stage("contact"):
-            lifted_positions = lifted(positions, touch)
-        return np.where(self.model.fixed[:, None], positions, lifted_positions)
+            return put_back(self.model, positions, touch)
 
     def turn(self, positions: Floats, directions: Floats, settings: DynamicsSettings) -> Floats:
         """Hair directions at new positions (eq. 15), unit, (n, 3)."""

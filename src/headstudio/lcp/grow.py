@@ -32,7 +32,7 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
     coordinates = coordinates[np.argsort(coordinates[:, 2], kind="stable")]
     uv, arc_length = coordinates[:, :2], coordinates[:, 2]
     roots = scalp.points(uv)
-    length: Floats = settings.length * scalp.lengths(uv)
+    length = np.asarray(scalp.lengths(uv)) * settings.length
     root_directions = scalp.root_directions(uv, settings.lie_down, settings.stand_up)
     positions, directions = hang(roots, root_directions, arc_length, length, settings.bending_length, body)
 
@@ -43,7 +43,8 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
     links = connect(positions, directions, roots, arc_length, link_smoothing, _SAME_STRANDS * strand_spacing)
     fixed = arc_length < 0
     # Poisson discs sample the volume evenly, so each particle stands for as much hair as any other.
-    mass = np.full(len(arc_length), settings.mass / max(np.count_nonzero(~fixed), 1))
+    above = int(np.count_nonzero(~fixed))
+    mass = np.full(len(arc_length), settings.mass / max(above, 1))
     return HairModel(
         coordinates=coordinates,
         root_points=roots,

@@ -103,7 +103,8 @@ def _contact_drag(
     collision = unit_rate * settings.collision * np.where(approaching, along, 0.0)
     # (v . d_t) d_t is the part of v across d_n.
     friction = unit_rate * settings.friction
-    return bound * (friction * v + (collision - friction * along) * normal)
+    drag: Floats = bound * (friction * v + (collision - friction * along) * normal)
+    return drag
 
 
 def _dot(a: Floats, b: Floats) -> Floats:

@@ -44,5 +44,5 @@ class LeapfrogSolver:
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v = dynamics.hold(x, v, touch, touch.distance, now, dt)
-        x = dynamics.lift(x + dt * v, frame)
+        x = dynamics.put_back(x + dt * v, frame)
         return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)
