@@ -1,4 +1,4 @@
-"""One window without a screen for a whole module; every test starts with a small head of hair at rest."""
+"""One window without a screen for all of these tests; each starts with a small head of hair at rest."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from headstudio.params import assign
 from .driver import Driver
 
 SMALL = {"head.source": "mannequin", "hair.particles": 300, "look.shadow_size": 64}
+WINDOW = (1000, 1300)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def application() -> Iterator[Application]:
-    window = Window("test", (1280, 1300), headless=True)
+    window = Window("test", WINDOW, headless=True)
     application = Application(window, Studio())
     # Every panel is in sight, and the picture small, for speed.
     application.sizes.foot = 760

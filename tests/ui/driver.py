@@ -105,9 +105,8 @@ class Driver:
         self.frames()
 
     def type(self, text: str) -> None:
-        for character in text:
-            imgui.get_io().add_input_character(ord(character))
-            self.frames()
+        imgui.get_io().add_input_characters_utf8(text)
+        self.frames(2)
 
     def menu(self, menu: str, item: str) -> None:
         self.click(menu)

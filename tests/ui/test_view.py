@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from imgui_bundle import imgui
+from scipy.spatial.transform import Rotation
 
 from headstudio.app import navigation
 from headstudio.app.picking import View, pick_head
@@ -106,8 +107,6 @@ def test_rays_and_points_of_the_picture_are_inverse():
 
 def test_a_ray_finds_the_near_side_of_a_turned_and_moved_head(driver):
     head = driver.studio.stage.head
-    from scipy.spatial.transform import Rotation
-
     frame = HeadFrame(Rotation.from_euler("y", 0.5), np.array([0.1, 0.0, 0.0]))
     nose = frame.to_world(head.landmarks.nose_tip[None])[0]
     view = View(Camera(azimuth=0.5), 400, 400)

@@ -6,17 +6,23 @@ import sys
 
 import numpy as np
 import pytest
+from imgui_bundle import imgui
 
 from headstudio.app import theme
 from headstudio.app.messages import SECONDS, Messages
+from headstudio.app.work import Work
+from headstudio.scene.project import load_project
+from headstudio.scene.recent import recent_projects
+
+from .conftest import WINDOW
 
 
 def test_the_whole_window_is_drawn(driver):
     driver.frames(2)
     picture = driver.app.window.picture()
-    assert picture.shape == (1300, 1280, 3)
+    assert picture.shape == (*WINDOW[::-1], 3)
     ground = np.round(np.array(theme.GROUND) * 255)
-    assert np.abs(picture[4, 600] - ground).max() <= 2, "the menu bar"
+    assert np.abs(picture[4, 700] - ground).max() <= 2, "the menu bar"
     rect = driver.rect("Viewport")
     view = picture[int(rect.y) : int(rect.y + rect.height), int(rect.x) : int(rect.x + rect.width)]
     assert view.std() > 12, "a head in the viewport"
@@ -38,11 +44,9 @@ def test_the_panels_can_be_hidden_and_resized(driver):
     driver.drag((x, y), (x + 40, y))
     assert driver.rect("Viewport").width == pytest.approx(before.width - 40, abs=2)
     driver.drag((x + 40, y), (x, y))
-    from imgui_bundle import imgui
-
     driver.key(imgui.Key.tab)
     driver.frames(2)
-    assert driver.rect("Viewport").width == 1280
+    assert driver.rect("Viewport").width == WINDOW[0]
     driver.key(imgui.Key.tab)
     driver.frames(2)
     assert driver.rect("Viewport").width == pytest.approx(before.width, abs=2)
@@ -73,3 +77,24 @@ def test_messages_age_and_go():
     messages.pass_time(SECONDS["info"] + 0.1)
     assert [m.text for m in messages.shown] == ["two"]
     assert [m.text for m in messages.log] == ["one", "two"]
+
+
+def test_everything_grows_with_the_density_of_the_screen(driver, monkeypatch):
+    before = driver.rect("Transport/Play")
+    window = type(driver.app.window)
+    monkeypatch.setattr(window, "scale", property(lambda self: 1.5))
+    driver.frames(3)
+    assert driver.rect("Transport/Play").height == pytest.approx(1.5 * before.height, abs=2)
+    monkeypatch.undo()
+    driver.frames(3)
+    assert driver.rect("Transport/Play").height == pytest.approx(before.height, abs=1)
+
+
+def test_a_failing_program_keeps_the_work(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    work = Work()
+    work.set("lcp.gravity", 3.0, "Gravity")
+    path = work.rescue()
+    assert load_project(path).document.lcp.gravity == 3.0
+    assert recent_projects() == [path]
+    assert work.modified

@@ -14,11 +14,13 @@ from ..scene.project import SUFFIX
 from ..scene.recent import recent_projects
 from .commands import Command
 from .file_browser import FileWish
+from .tools.tool import Tool
 
 if TYPE_CHECKING:
     from .application import Application
 
 HEAD_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
+TOOL_KEYS = "QWERT"
 VIEW_KEYS = {"front": "1", "left": "3", "right": "Ctrl+3", "back": "9", "top": "7", "three-quarter": "0"}
 
 
@@ -31,7 +33,7 @@ class Actions:
 
     def commands(self) -> list[Command]:
         """Every command in the order of the menus."""
-        return [*self._file(), *self._edit(), *self._play(), *self._view(), *self._help()]
+        return [*self._file(), *self._edit(), *self._tools(), *self._play(), *self._view(), *self._help()]
 
     # -- projects ----------------------------------------------------------------------------------------------------
 
@@ -165,6 +167,17 @@ class Actions:
             Command("Edit", "Previous view", views.undo, "[", lambda: views.undo_label is not None),
             Command("Edit", "Next view", views.redo, "]", lambda: views.redo_label is not None),
         ]
+
+    def _tools(self) -> list[Command]:
+        viewport = self._app.viewport
+
+        def command(tool: Tool, key: str) -> Command:
+            def take() -> None:
+                viewport.tool = tool
+
+            return Command("Tools", tool.label, take, key, on=lambda: viewport.tool is tool)
+
+        return [command(tool, key) for tool, key in zip(self._app.tools, TOOL_KEYS)]
 
     def _play(self) -> list[Command]:
         playback = self._studio.playback

@@ -23,6 +23,7 @@ from .viewport import Viewport
 from .window import Window
 
 IDLE_WAIT = 0.1  # [s] between two looks for events while nothing moves
+MEASURE_EVERY = 0.1  # [s]
 
 
 class Application:
@@ -40,13 +41,14 @@ class Application:
             editor.label: [make(studio) for make in editor.tools] for editor in EDITORS
         }
         self.editor = EDITORS[0]
-        self.viewport = Viewport(studio, window.gl, self._tools[self.editor.label][0])
+        self.viewport = Viewport(studio, window.gl, self.tools[0])
         self.actions = Actions(self)
         self.commands = self.actions.commands()
         self.sidebar = Sidebar(self.rows, self.viewport)
         self.transport = Transport(studio, self.recorder, self.actions.record)
         self.closed = False
         self._measured: Stage | None = None
+        self._unmeasured = MEASURE_EVERY
         window.on_drop = self.actions.take_dropped
         self._last = time.perf_counter()
 
@@ -59,15 +61,19 @@ class Application:
 
     def frame(self, seconds: float | None = None, wait: float = 0.0) -> None:
         """One frame. ``seconds``: its length for everything that moves, None for the clock on the wall."""
-        now = time.perf_counter()
-        wall, self._last = (now - self._last if seconds is None else seconds), now
-        self.window.begin_frame(seconds, wait)
         if self.window.close_asked:
             self.window.keep_open()
             self.actions.quit()
+        if self.window.minimised:
+            self.window.sleep(IDLE_WAIT)
+            return
+        self._follow_screen()
+        now = time.perf_counter()
+        wall, self._last = (now - self._last if seconds is None else seconds), now
+        self.window.begin_frame(seconds, wait)
         self.studio.tick(wall, self.recorder.frame_seconds)
         self._draw()
-        self._measure()
+        self._measure(wall)
         self.window.set_title(f"{self.studio.work.name}{' *' if self.studio.work.modified else ''} - headstudio")
         self.window.end_frame(theme.GROUND)
         self._record()
@@ -77,6 +83,12 @@ class Application:
         """Whether nothing changes until the user does something."""
         studio = self.studio
         return not (studio.playback.playing or studio.building or studio.messages.shown or imgui.is_any_item_active())
+
+    def _follow_screen(self) -> None:
+        """The window may have been moved to a screen of another density."""
+        if abs(self.window.scale - self.ui.scale) > 0.01:
+            theme.rescale(self.ui.scale, self.window.scale)
+            self.ui.scale = self.window.scale
 
     def _draw(self) -> None:
         self.ui.new_frame()
@@ -93,9 +105,14 @@ class Application:
         self.dialogs.draw(self.ui, self.commands)
         self.rows.finish_frame()
 
+    @property
+    def tools(self) -> list[Tool]:
+        """The tools of the open editor."""
+        return self._tools[self.editor.label]
+
     def _draw_left(self) -> None:
         self._draw_tabs()
-        self.sidebar.draw(self.ui, self._tools[self.editor.label])
+        self.sidebar.draw(self.ui, self.tools)
 
     def _draw_tabs(self) -> None:
         """The tabs of the editors; a single editor needs none."""
@@ -113,7 +130,7 @@ class Application:
     def _open_editor(self, editor: Editor) -> None:
         if editor is not self.editor:
             self.editor = editor
-            self.viewport.tool = self._tools[editor.label][0]
+            self.viewport.tool = self.tools[0]
 
     def _draw_view(self, layout: shell.Layout) -> None:
         view = layout.view
@@ -140,15 +157,20 @@ class Application:
         if self.ui.button("File...", help_, on=source not in names.values(), width=width):
             self.actions.import_head()
 
-    def _measure(self) -> None:
-        """Keep the figures of a frame that moved."""
+    def _measure(self, wall: float) -> None:
+        """Keep the figures of a frame that moved; those that take long to find not of every one."""
         grown = self.studio.grown
+        self._unmeasured += wall
         if grown is None or self.studio.stage is self._measured:
             return
         self._measured = self.studio.stage
         simulation = grown.simulation
+        measures: dict[str, float] = {}
+        if self._unmeasured >= MEASURE_EVERY:
+            self._unmeasured = 0.0
+            measures = simulation.measure()
         stages = simulation.timings | self.viewport.renderer.timer.stages
-        self.transport.plots.record(simulation.time, simulation.measure(), stages)
+        self.transport.plots.record(simulation.time, measures, stages)
 
     def _record(self) -> None:
         if not self.recorder.recording or self.studio.stage is None:

@@ -64,6 +64,13 @@ def apply(scale: float) -> Fonts:
     return _fonts()
 
 
+def rescale(before: float, after: float) -> None:
+    """Change the size of everything, from one scale to another."""
+    style = imgui.get_style()
+    style.scale_all_sizes(after / before)
+    style.font_scale_dpi = after
+
+
 def _fonts() -> Fonts:
     folder = _bundled_fonts()
     atlas = imgui.get_io().fonts

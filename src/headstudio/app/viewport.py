@@ -44,6 +44,7 @@ class Viewport:
     def __init__(self, studio: Studio, gl: moderngl.Context, tool: Tool) -> None:
         self.studio = studio
         self.renderer = Renderer(gl)
+        # Without it the time of a picture would not be known: OpenGL draws behind the caller's back.
         self.renderer.timer.on = True
         self.tool = tool
         self.adaptive = True

@@ -88,6 +88,10 @@ class Window:
         """Write the title bar."""
         glfw.set_window_title(self._handle, title)
 
+    def sleep(self, seconds: float) -> None:
+        """Wait for an event, at most ``seconds``, without drawing."""
+        glfw.wait_events_timeout(seconds)
+
     def begin_frame(self, seconds: float | None = None, wait: float = 0.0) -> None:
         """Take the events and start a frame of ImGui.
 
@@ -113,10 +117,6 @@ class Window:
         self.gl.screen.clear(*background)
         imgui.backends.opengl3_render_draw_data(imgui.get_draw_data())
         glfw.swap_buffers(self._handle)
-
-    def abandon_frame(self) -> None:
-        """End a frame that could not be finished, without showing it."""
-        imgui.end_frame()
 
     def picture(self) -> NDArray[np.uint8]:
         """What was drawn last, shape (height, width, 3), first row on top. Call between ``end_frame`` and the next."""

@@ -11,7 +11,7 @@ from ..params import assign
 from ..scene.document import Document
 from ..scene.history import History
 from ..scene.project import SUFFIX, load_project, new_project, save_project
-from ..scene.recent import remember_project
+from ..scene.recent import config_folder, remember_project
 from ..scene.settings import Camera
 
 VIEW = "camera."
@@ -94,6 +94,14 @@ class Work:
         save_project(self.document, path)
         self.path = path
         self.history.mark_saved()
+        _remember(path)
+        return path
+
+    def rescue(self) -> Path:
+        """Write the work beside the user's settings, where the recent projects name it; returns where. Raises OSError."""
+        path = config_folder() / f"rescued{SUFFIX}"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        save_project(self.document, path)
         _remember(path)
         return path
 

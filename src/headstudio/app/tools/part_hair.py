@@ -13,7 +13,7 @@ class PartHair(Tool):
 
     label = "Part"
     icon = icons.ICON_FA_ARROWS_LEFT_RIGHT_TO_LINE
-    help = "Press on the head: the hair is held apart as long as you hold the button. Let go and it falls together."
+    help = "Press on the head: the hair at the back is held apart until you let go, then it falls together."
 
     def press(self, pointer: Pointer) -> bool:
         """Take the hair apart."""
