@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -38,16 +40,17 @@ QUICK = Scale(particles=600, size=192, length=0.3)
 
 @dataclass(frozen=True)
 class Scene:
-    """A film of the demo: its name, which is also the motion's, the view, and how long it lasts [s]."""
+    """A film of the demo: its name, which is also the motion's, the view, how long it lasts [s], and what else is set."""
 
     name: str
     view: str
     seconds: float
+    settings: Mapping[str, float] = field(default_factory=dict)
 
 
 SCENES = (
     Scene("shake", "three-quarter", 3.0),
-    Scene("nod", "side", 2.0),
+    Scene("nod", "side", 2.0, {"motion.angle": math.radians(25), "motion.rate": 1.0}),
     Scene("turn", "back", 3.0),
     Scene("split", "back", 4.0),
     Scene("wind", "front", 4.0),
@@ -91,7 +94,7 @@ def shadows(stage: Stage, document: Document, photographer: Photographer) -> Pix
 
 def directed(scene: Scene, document: Document) -> Document:
     """The document as a scene wants it moved and seen."""
-    return choose_view(assign(document, {"motion.kind": scene.name}), scene.view)
+    return choose_view(assign(document, {"motion.kind": scene.name, **scene.settings}), scene.view)
 
 
 def film(run: Run, photographer: Photographer, count: int, path: Path) -> Pixels:
