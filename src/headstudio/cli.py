@@ -77,14 +77,16 @@ def alone(context: typer.Context) -> None:
 
 
 @command("open")
-def open_window(project: Project = None) -> None:
+def open_window(project: Project = None, head: HeadOption = None, set_: SetOption = None) -> None:
     """Open the window, on a project if one is named."""
-    from .app import main
-    from .app.window import WindowError
+    from .app import WindowError, main
+    from .commands.documents import head_source
     from .commands.reporting import complain
+    from .params import parse_assignments
 
+    changes: dict[str, Any] = {} if head is None else {"head.source": head_source(head)}
     try:
-        main(str(project) if project else None)
+        main(str(project) if project else None, changes | parse_assignments(set_ or []))
     except WindowError as error:
         complain(str(error))
         raise typer.Exit(FAILED) from None

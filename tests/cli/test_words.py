@@ -102,10 +102,21 @@ def test_what_a_project_holds_that_nobody_knows_is_a_warning(headstudio):
 
 def test_alone_it_opens_the_window(headstudio, monkeypatch):
     opened = []
-    monkeypatch.setattr("headstudio.app.main", opened.append)
+    monkeypatch.setattr("headstudio.app.main", lambda *words: opened.append(words))
     assert headstudio().status == 0
     assert headstudio("open", "hair.headstudio").status == 0
-    assert opened == [None, "hair.headstudio"]
+    assert headstudio("open", "--head", "mannequin", "--set", "hair.length=0.2").status == 0
+    assert opened == [
+        (None, {}),
+        ("hair.headstudio", {}),
+        (None, {"head.source": "mannequin", "hair.length": "0.2"}),
+    ]
+
+
+def test_a_parameter_that_the_window_cannot_take_is_one_line(headstudio):
+    ran = headstudio("open", "--set", "hair.length=long")
+    assert ran.status == 2
+    assert "hair.length takes a number" in ran.complaint
 
 
 def test_compare_tells_same_from_different(headstudio):
