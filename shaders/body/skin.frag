@@ -33,7 +33,7 @@ void main() {
     albedo = mix(albedo, skin_colour * vec3(0.86, 0.44, 0.46), lips * 0.85);
     // Brow hairs lie outwards and up: fine strokes, not a stain. Where long hair grows the ground is dark between it.
     float stroke = texture(strands, vec2(9.0 * (0.6 * abs(v_rest.x) - 0.8 * v_rest.y), 0.5)).r;
-    float brow = smoothstep(0.2, 0.8, brows * (0.45 + 1.1 * stroke)) * 0.9;
+    float brow = smoothstep(0.2, 0.8, brows * (0.9 + 0.4 * stroke)) * 0.9;
     float cover = smoothstep(0.0, 1.0, v_cover);
     albedo = mix(albedo, hair_colour * 0.35, max(brow, cover));
 
@@ -54,7 +54,7 @@ void main() {
     float fresnel = 0.028 + 0.972 * pow(1.0 - max(dot(h, to_eye), 0.0), 5.0);
     float rough = mix(0.48, 0.34, lips);
     float shine = mix(lobe(n_h, front, n_v, rough), lobe(n_h, front, n_v, rough * 0.58), 0.28 + 0.2 * lips);
-    shine *= fresnel * front * lit * 3.14159 * (1.0 - max(brow, cover));
+    shine *= fresnel * front * lit * 2.2 * (1.0 - max(brow, cover));
     float rim = 0.028 + 0.30 * pow(1.0 - n_v, 5.0);
     vec3 sheen = mix(ground.rgb, sky.rgb, clamp(reflect(-to_eye, n).y * 0.5 + 0.5, 0.0, 1.0)) * rim * open * open;
 

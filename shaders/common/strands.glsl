@@ -1,7 +1,6 @@
 // The strand texture: opacity in red, tone in green. A billboard shows a window of it.
 uniform sampler2D strands;
 
-const float window_width = 0.11;
 // Soft towards the sides, so that no billboard shows its edge. x: -1 to 1.
 float sides(float x) {
     float t = 1.0 - x * x;
@@ -10,7 +9,7 @@ float sides(float x) {
 
 // Opacity of a billboard as the light sees it, local in -1 to 1. The mip level is fixed: the light wants no single
 // strands, and every reader must see the same billboard.
-float light_opacity(vec2 local, float window) {
+float light_opacity(vec2 local, float window, float window_width) {
     vec2 at = vec2(window + 0.5 * window_width * local.x, 0.5 + 0.5 * local.y);
     return textureLod(strands, at, 3.0).r * sides(local.x);
 }

@@ -9,7 +9,8 @@ uniform sampler2D curves;     // CURVE_DTYPE of render/ribbons.py
 uniform sampler2D ribbons;    // RIBBON_DTYPE
 uniform sampler2D light;      // towards the root, at the particle, towards the tip
 uniform float half_width;     // of a particle's billboard [m]
-uniform float narrowing;      // width of a ribbon, of that
+uniform float ribbon_half_width;  // [m]
+uniform float window_width;   // part of the strand texture that a ribbon shows
 uniform vec3 hair_colour;
 uniform float opacity;
 uniform float transmission;
@@ -19,7 +20,6 @@ out vec4 v_gleam;   // cosines of the strand to the light and to the eye, streng
 
 const int sections = 7;
 const int texels = 2 * sections + 1;
-const float window_width = 0.11;
 const float least_sine = 0.3;
 const vec3 above = vec3(0.0, 0.96, 0.28);
 
@@ -44,7 +44,7 @@ void main() {
     float sine = length(across);
     across = sine > 1e-4 ? across / sine : side.xyz;
     // Locks run to a point at both ends.
-    place += across * corner.x * half_width * narrowing * (1.0 - 0.45 * along * along);
+    place += across * corner.x * ribbon_half_width * (1.0 - 0.45 * along * along);
 
     vec3 lights = record(light, int(look.w + 0.5), 1, 0).rgb;
     float received = mix(lights.g, along < 0.0 ? lights.r : lights.b, abs(along));
@@ -63,7 +63,7 @@ void main() {
     float sheen = pow(max(sin_u * sine - t_u * t_v, 0.0), 10.0);
     float open = mix(0.22, 1.0, side.w);
     vec3 soft = mix(ground.rgb, sky.rgb, 0.35 + 0.5 * sin_u) * open;
-    vec3 body = hair_colour * (radiance.rgb * deep * sin_l * directed * 1.15 + soft * (0.75 + 1.4 * sheen)) + soft * sheen * 0.02;
+    vec3 body = hair_colour * (radiance.rgb * deep * sin_l * directed + soft * (0.68 + 1.4 * sheen)) + soft * sheen * 0.02;
     v_body = vec4(body * exp(0.20 * look.y), corner.x);
     v_gleam = vec4(t_l, t_v, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown);
     v_at = vec2(look.x + 0.5 * window_width * corner.x, 0.5 + 0.5 * along);

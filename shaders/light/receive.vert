@@ -27,8 +27,9 @@ void main() {
         vec2 off = pixel - a.xy;
         vec2 local = vec2(off.x * a.w - off.y * a.z, dot(off, a.zw)) / b.xy;
         if (max(abs(local.x), abs(local.y)) < 1.0) {
-            float there = past_objects_at(vec3(a.xy / size, record(billboards, j, 3, 2).x - root_bias / shadow.y), 0.006);
-            through *= 1.0 - light_opacity(local, b.w) * b.z * there;
+            vec4 c = record(billboards, j, 3, 2);
+            float there = past_objects_at(vec3(a.xy / size, c.x - root_bias / shadow.y), 0.006);
+            through *= 1.0 - light_opacity(local, b.w, c.z) * b.z * there;
         }
     }
     v_light = vec4(lit * through, lit, 0.0, 0.0);

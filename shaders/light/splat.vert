@@ -7,16 +7,17 @@ uniform int first;
 uniform float map_size;
 in vec2 corner;
 out vec2 v_local;
-flat out float v_window;
+flat out vec2 v_window;
 flat out float v_opacity;
 
 void main() {
     int rank = first + gl_InstanceID;
     vec4 a = record(billboards, rank, 3, 0);
     vec4 b = record(billboards, rank, 3, 1);
-    int particle = int(record(billboards, rank, 3, 2).y + 0.5);
+    vec4 c = record(billboards, rank, 3, 2);
+    int particle = int(c.y + 0.5);
     v_local = corner;
-    v_window = b.w;
+    v_window = vec2(b.w, c.z);
     v_opacity = b.z * record(received, particle, 1, 0).g;
     vec2 across = vec2(a.w, -a.z);
     vec2 texel = a.xy + across * corner.x * b.x + a.zw * corner.y * b.y;

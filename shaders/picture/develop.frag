@@ -6,9 +6,12 @@ uniform vec2 size;
 uniform int supersampling;
 out vec4 colour;
 
-// A mild film curve: straight in the shadows, a long soft shoulder, white at about 6.
+// A mild film curve: straight in the shadows, a long soft shoulder. Half of it is taken by the brightness alone, so that
+// what is bright pales a little and not to chalk.
 vec3 film(vec3 x) {
-    return x * (1.0 + x / 18.0) / (1.0 + 0.62 * x);
+    float bright = dot(x, vec3(0.2126, 0.7152, 0.0722));
+    vec4 curved = vec4(x, bright) * (1.0 + vec4(x, bright) / 18.0) / (1.0 + 0.62 * vec4(x, bright));
+    return mix(curved.rgb, x * (curved.a / max(bright, 1e-4)), 0.5);
 }
 
 vec3 srgb(vec3 c) {

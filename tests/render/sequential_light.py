@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from headstudio.head.mesh import Floats
 
-WINDOW_WIDTH = 0.11  # window_width of common/strands.glsl
-
 
 def reduced(image: Floats, level: int) -> Floats:
     """Level ``level`` of a mip-map pyramid: every step takes the mean of 2 x 2 texels."""
@@ -59,7 +57,7 @@ def _draw(light_map: Floats, board: Any, lit: float, strands: Floats) -> None:
     across = (dx * ay - dy * ax) / board["half_width"]
     along = (dx * ax + dy * ay) / board["half_length"]
     t = 1 - across**2
-    opacity = bilinear(strands, board["window"] + 0.5 * WINDOW_WIDTH * across, 0.5 + 0.5 * along)
+    opacity = bilinear(strands, board["window"] + 0.5 * board["window_width"] * across, 0.5 + 0.5 * along)
     opacity = opacity * t * (2 - t) * board["opacity"] * lit
     inside = (np.abs(across) < 1) & (np.abs(along) < 1)
     light_map[low[1] : high[1], low[0] : high[0]] *= np.where(inside, 1 - opacity, 1.0)

@@ -19,16 +19,15 @@ from .hair_light import HairLight, LightPrograms
 from .particle_texture import RecordTexture
 from .ribbons import CURVE_DTYPE, RIBBON_DTYPE, curve_texels, farthest_first, lay_out_ribbons, ribbon_narrowing
 from .scene_block import linear
+from .strand_texture import STRIP_WIDTH
 from .strands import SECTIONS, CurveBuilder, HairCurves, joined, openness
 from .targets import LightTargets
 from .undergrowth import Undergrowth
 from .view import View
 
+# Mip levels finer than one texel a pixel: the strands of neighbouring ribbons smooth each other.
+_CRISPNESS = 0.8
 _DRAWN_DTYPE = np.dtype([("ribbon", "i4"), ("shown", "f4")])
-
-
-WINDOW_WIDTH = 0.11
-"""Part of the strand texture that a ribbon shows; ``window_width`` in common/strands.glsl."""
 
 
 class HairPrograms:
@@ -103,6 +102,7 @@ class Hair:
         """The ribbons, farthest first (thesis 3.4, lines 17 to 21), into the framebuffer in use."""
         assert self.curves is not None
         half_width = self._half_width(look)
+        ribbon_half_width = half_width * ribbon_narrowing(self._per_particle)
         order = farthest_first(self._laid_out, self._all_curves, half_width, view)
         curve = self._laid_out["curve"][order].astype(np.int64)
         shown = shown_through_hair(self._all_curves, view, 2 * half_width)[curve]
@@ -117,12 +117,13 @@ class Hair:
         set_uniforms(
             self._programs.ribbon,
             strands=2,
-            level=self._texture_level(view, half_width, picture_height),
+            level=self._texture_level(view, picture_height),
             light=4,
             curves=5,
             ribbons=6,
             half_width=half_width,
-            narrowing=ribbon_narrowing(self._per_particle),
+            ribbon_half_width=ribbon_half_width,
+            window_width=2 * ribbon_half_width / STRIP_WIDTH,
             hair_colour=tuple(linear(look.hair_colour)),
             opacity=look.hair_opacity,
             transmission=look.forward_scatter,
@@ -130,16 +131,16 @@ class Hair:
         )
         self._ribbons.render(moderngl.TRIANGLE_STRIP, instances=len(drawn))
 
-    def _texture_level(self, view: View, half_width: float, picture_height: int) -> float:
-        """The mip level at which a texel of a ribbon is as wide as a pixel, in the middle of the hair.
+    def _texture_level(self, view: View, picture_height: int) -> float:
+        """The mip level at which a texel is about as wide as a pixel, in the middle of the hair.
 
-        All ribbons are equally wide and about equally far away, and asking once is faster than at every pixel.
+        All strands are equally thick and about equally far away, and asking once is faster than at every pixel.
         """
         assert self.curves is not None
         distance = max(float(np.median(view.depth(self.curves.position))), view.near)
-        pixels = ribbon_narrowing(self._per_particle) * half_width * picture_height * view.focal / distance
-        texels = WINDOW_WIDTH * self._programs.strands.width
-        return float(max(np.log2(texels / max(pixels, 1e-6)) - 0.8, 0.0))
+        pixels_per_metre = 0.5 * picture_height * view.focal / distance
+        texels_per_metre = self._programs.strands.width / STRIP_WIDTH
+        return float(max(np.log2(texels_per_metre / pixels_per_metre) - _CRISPNESS, 0.0))
 
     def _half_width(self, look: Look) -> float:
         return 0.5 * look.billboard_width * self._model.spacing

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ..lcp.model import HairModel
 from ..scene.settings import Look
+from .strand_texture import STRIP_WIDTH
 from .strands import HairCurves
 from .view import View
 
@@ -20,11 +21,13 @@ BILLBOARD_DTYPE = np.dtype(
         ("window", "f4"),
         ("depth", "f4"),
         ("particle", "f4"),
-        ("_unused", "f4", 2),
+        ("window_width", "f4"),
+        ("_unused", "f4"),
     ]
 )
 """Three RGBA texels. centre, half_width and half_length in texels of the light map; axis: unit, along the hair as
-projected; opacity in the middle; window of the strand texture; depth 0 to 1 in the light's box; particle: index."""
+projected; opacity in the middle; where in the strand texture its window is, and how wide; depth 0 to 1 in the light's
+box; particle: index."""
 
 LEAST_SINE = 0.3
 """Seen end-on a billboard would be infinitely thin and opaque: sin(theta) is bounded from below."""
@@ -64,6 +67,7 @@ def light_billboards(
     out["half_length"] = half_width * look.billboard_stretch * np.maximum(sine, LEAST_SINE)
     out["opacity"] = opacity_scale(direction @ light.forward, look.hair_opacity)
     out["window"] = windows[order]
+    out["window_width"] = look.billboard_width * model.spacing / STRIP_WIDTH
     out["depth"] = depth[order] / light.far
     out["particle"] = order
     return out

@@ -20,6 +20,9 @@ from scipy.ndimage import gaussian_filter1d
 from ..head.mesh import Floats
 
 WIDTH, HEIGHT = 1024, 256
+STRIP_WIDTH = 0.113
+"""How wide the strip is on the hair [m]: strands are as thick in wide billboards as in narrow ones."""
+
 STRANDS = 420
 LOCKS = 44
 SEED = 7
