@@ -38,8 +38,16 @@ class Driver:
 
     def built(self) -> None:
         """Wait for the hair that the document asks for."""
+
+        def done() -> bool:
+            grown, document = self.studio.grown, self.studio.document
+            return grown is not None and all(
+                getattr(grown.document, part) == getattr(document, part) for part in ("head", "scalp", "hair")
+            )
+
         self.frames(2)
-        self.until(lambda: not self.studio.building and self.studio.stage is not None)
+        self.until(done)
+        self.frames(2)
 
     def rect(self, path: str) -> Rect:
         """Where the widget with this label path, or this end of a path, was drawn."""

@@ -1,5 +1,6 @@
 """New, open, save: by menu, by key and by dropping a file; nothing is lost by accident."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -160,3 +161,25 @@ def test_keys_are_listed_and_none_is_taken_twice(driver):
     assert driver.app.dialogs.asking
     driver.click("Keys and mouse/Close")
     assert not driver.app.dialogs.asking
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [{"head.source": "/nowhere/anna.obj"}, {"head.source": "mannequin", "hair.length": 0.2}],
+    ids=["a head that is gone", "curves that cannot be used"],
+)
+def test_a_project_that_cannot_be_built_opens_with_a_stand_in(driver, tmp_path, broken):
+    document = assign(Document(), SMALL | broken)
+    if "hair.length" in broken:
+        curves = tuple(((0.0, 0.0, z), (0.0, 0.1, z)) for z in (0.5, 0.6, 0.7, 0.8))
+        document = replace(document, scalp=replace(document.scalp, curves=curves))
+    path = tmp_path / "broken.headstudio"
+    save_project(document, path)
+    assert driver.studio.open(path)
+    driver.built()
+    assert driver.studio.document.head.source == "mannequin"
+    assert driver.studio.document.hair == document.hair
+    errors = [message for message in driver.studio.messages.log if message.kind == "error"]
+    assert [message.times for message in errors] == [1]
+    driver.frames(5)
+    assert not driver.studio.building

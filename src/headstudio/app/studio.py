@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from ..head.head import HeadError
 from ..head.mesh import Floats
+from ..head.scalp_settings import ScalpSettings
 from ..io.film import FilmError
+from ..lcp.settings import HairSettings
 from ..params import ParameterError
 from ..render.context import RenderError
 from ..scene.builder import Builder, Built
@@ -48,6 +50,7 @@ class Studio:
         builder = Builder(lambda part: self.builds.announce(part))
         self.builds: Builds[Grown] = Builds(lambda document: _grow(builder, document))
         self._tuned: Document | None = None
+        self._refused: Document | None = None
 
     # -- the work ----------------------------------------------------------------------------------------------------
 
@@ -130,7 +133,7 @@ class Studio:
             self.stage = None
 
     def _simulate(self, simulation: Simulation, seconds: float) -> None:
-        document = self.document
+        document = self.work.history.document  # the view is no matter of the simulation
         if document != self._tuned:
             simulation.retune(document)
             self._tuned, self.stage = document, None
@@ -152,14 +155,15 @@ class Studio:
     def cancel_build(self) -> None:
         """Keep the hair as it is, and take back the change that asked for another."""
         self.builds.cancel()
-        self._return_to_grown("Cancelled: the hair stays as it was.")
+        self.messages.say("Cancelled: the hair stays as it was.")
+        self._return_to_grown()
 
     def _follow_document(self) -> None:
         """Ask for a build when the document has moved away from what was built; not in the middle of a drag."""
         document = self.document
         if self.work.in_gesture:
             return
-        known = self.builds.wanted or (self.grown.document if self.grown else None)
+        known = self.builds.wanted or (self.grown.document if self.grown else self._refused)
         if known is not None and _same_hair(document, known):
             return
         if self.grown is not None and _same_hair(document, self.grown.document):
@@ -173,22 +177,33 @@ class Studio:
             return
         if finished.result is not None:
             self.grown = finished.result
-            self._tuned = finished.document
+            self._tuned = None
             self.performance = Performance(self.document.motion)
             self.stage = None
         elif finished.error is not None:
             self.messages.say(explain(finished.error), "error")
-            self._return_to_grown("")
+            self._return_to_grown()
 
-    def _return_to_grown(self, message: str) -> None:
-        if message:
-            self.messages.say(message)
-        if self.grown is None:
-            # Nothing was ever built: start from the one document that always can be.
-            self.work.set("head.source", "mannequin", "Use the mannequin")
-        else:
+    def _return_to_grown(self) -> None:
+        """Make the document one that there is hair for: the last such, or else one that can be built."""
+        if self.grown is not None:
             grown = self.grown.document
-            self.work.go_back(lambda document: _same_hair(document, grown))
+            if self.work.go_back(lambda document: _same_hair(document, grown)):
+                return
+        self._stand_in()
+
+    def _stand_in(self) -> None:
+        """A project that cannot be built keeps what it can: first the head gives way, then everything that grows."""
+        document = self.document
+        head = replace(document.head, source="mannequin")
+        stand_in = replace(document, head=head, scalp=replace(document.scalp, curves=()))
+        if _same_hair(stand_in, document):
+            stand_in = replace(document, head=head, scalp=ScalpSettings(), hair=HairSettings())
+        if _same_hair(stand_in, document):
+            self._refused = document
+            return
+        self.work.change(stand_in, "Use the mannequin")
+        self.messages.say("The mannequin stands in.", "warning")
 
 
 class Reporting:

@@ -105,10 +105,16 @@ class Work:
         _remember(path)
         return path
 
-    def go_back(self, wanted: Callable[[Document], bool]) -> None:
-        """Undo until the document is as ``wanted``, or until there is nothing left to undo."""
-        while not wanted(self.history.document) and self.history.undo():
-            pass
+    def go_back(self, wanted: Callable[[Document], bool]) -> bool:
+        """Undo until the document is as ``wanted``. False when it never was: then nothing is undone."""
+        steps = 0
+        while not wanted(self.history.document):
+            if not self.history.undo():
+                for _ in range(steps):
+                    self.history.redo()
+                return False
+            steps += 1
+        return True
 
     def _reopen(self, document: Document, path: Path | None) -> None:
         self.history.reopen(document)
