@@ -7,6 +7,7 @@ in int ribbon;
 in float shown;               // 0 where hair in front covers it, to 1
 uniform sampler2D curves;     // CURVE_DTYPE of render/ribbons.py
 uniform sampler2D ribbons;    // RIBBON_DTYPE
+uniform sampler2D body_distance;  // at every pixel [m]
 uniform sampler2D light;      // towards the root, at the particle, towards the tip
 uniform float half_width;     // of a particle's billboard [m]
 uniform float ribbon_half_width;  // [m]
@@ -22,6 +23,20 @@ const int sections = 7;
 const int texels = 2 * sections + 1;
 const float least_sine = 0.3;
 const vec3 above = vec3(0.0, 0.96, 0.28);
+
+// A ribbon is straighter than the shoulder it lies on. Where it runs just under the skin it is drawn a little above it
+// instead; what is farther behind [m] stays hidden.
+const float above_skin = 0.003;
+const float hidden = 0.016;
+
+float lifted_depth(vec4 at) {
+    ivec2 size = textureSize(body_distance, 0);
+    ivec2 pixel = ivec2((at.xy / at.w * 0.5 + 0.5) * vec2(size));
+    float behind = at.w - texelFetch(body_distance, clamp(pixel, ivec2(0), size - 1), 0).r;
+    float lift = max(behind + above_skin, 0.0) * (1.0 - smoothstep(0.5 * hidden, hidden, behind));
+    float near = shadow.z, far = shadow.w;
+    return (far + near - 2.0 * far * near / (at.w - lift)) / (far - near) * at.w;
+}
 
 void main() {
     vec4 across_hair = record(ribbons, ribbon, 2, 0);
@@ -68,4 +83,5 @@ void main() {
     v_gleam = vec4(t_l, t_v, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown);
     v_at = vec2(look.x + 0.5 * window_width * corner.x, 0.5 + 0.5 * along);
     gl_Position = clip_from_world * vec4(place, 1.0);
+    gl_Position.z = lifted_depth(gl_Position);
 }

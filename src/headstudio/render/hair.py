@@ -98,8 +98,11 @@ class Hair:
         else:
             self.light.fill()
 
-    def draw(self, view: View, look: Look, picture_height: int) -> None:
-        """The ribbons, farthest first (thesis 3.4, lines 17 to 21), into the framebuffer in use."""
+    def draw(self, view: View, look: Look, body_distance: moderngl.Texture) -> None:
+        """The ribbons, farthest first (thesis 3.4, lines 17 to 21), into the framebuffer in use.
+
+        ``body_distance``: how far away the body is at every pixel [m].
+        """
         assert self.curves is not None
         half_width = self._half_width(look)
         ribbon_half_width = half_width * ribbon_narrowing(self._per_particle)
@@ -111,13 +114,15 @@ class Hair:
         self._drawn.orphan()
         self._drawn.write(drawn.tobytes())
         self._programs.strands.use(2)
+        body_distance.use(3)
         self.light.softened.use(4)
         self._curve_texture.texture.use(5)
         self._ribbon_texture.texture.use(6)
         set_uniforms(
             self._programs.ribbon,
             strands=2,
-            level=self._texture_level(view, picture_height),
+            level=self._texture_level(view, body_distance.height),
+            body_distance=3,
             light=4,
             curves=5,
             ribbons=6,

@@ -33,6 +33,8 @@ class Renderer:
         self._overlays = OverlayPass(context)
         self._develop = load_program(context, "picture/screen.vert", "picture/develop.frag")
         self._screen = context.vertex_array(self._develop, [])
+        self._distance = load_program(context, "picture/screen.vert", "picture/distance.frag")
+        self._distance_screen = context.vertex_array(self._distance, [])
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | None = None
         self._hair: Hair | None = None
@@ -98,12 +100,9 @@ class Renderer:
         self._hair_programs.strands.use(2)
         with timer.stage("body"):
             self._draw_body(body if look.show_head else None, view, look, targets)
-        with timer.stage("hair"), self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
-            targets.scene.depth_mask = False
-            self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-            if hair is not None:
-                hair.draw(view, look, height * targets.supersampling)
-            targets.scene.depth_mask = True
+        if hair is not None:
+            with timer.stage("hair"):
+                self._draw_hair(hair, view, look, targets)
         with timer.stage("overlays"), self.context.scope(targets.scene, moderngl.PROGRAM_POINT_SIZE):
             self._overlays.draw(stage.overlays)
         with timer.stage("develop"), self.context.scope(targets.shown, moderngl.NOTHING):
@@ -155,6 +154,17 @@ class Renderer:
             targets.scene.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
             if body is not None:
                 body.draw(view, look)
+
+    def _draw_hair(self, hair: Hair, view: View, look: Look, targets: PictureTargets) -> None:
+        with self.context.scope(targets.distance_target, moderngl.NOTHING):
+            targets.depth.use(3)
+            set_uniforms(self._distance, depth=3)
+            self._distance_screen.render(moderngl.TRIANGLES, vertices=3)
+        with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
+            targets.scene.depth_mask = False
+            self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            hair.draw(view, look, targets.distance)
+            targets.scene.depth_mask = True
 
     def _targets_for(self, size: Size, supersampling: int) -> PictureTargets:
         known = self._targets

@@ -15,13 +15,17 @@ Size = tuple[int, int]
 class PictureTargets:
     """Linear colour (half floats, premultiplied alpha) with depth, and what is shown (8 bits, sRGB).
 
-    ``scene`` is ``supersampling`` times as large as ``size``.
+    ``scene`` is ``supersampling`` times as large as ``size``. ``distance`` holds how far away the body is [m]: the hair
+    reads it while the depth buffer is in use.
     """
 
     size: Size
     supersampling: int
     scene: moderngl.Framebuffer
     colour: moderngl.Texture
+    depth: moderngl.Texture
+    distance_target: moderngl.Framebuffer
+    distance: moderngl.Texture
     shown: moderngl.Framebuffer
     picture: moderngl.Texture
 
@@ -44,12 +48,19 @@ def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -
         raise RenderError(f"a picture has 1 to {largest} pixels a side here, got {size[0]} x {size[1]}")
     fine = (size[0] * supersampling, size[1] * supersampling)
     colour = _texture(context, fine, 4, "f2", moderngl.NEAREST)
+    depth = context.depth_texture(fine)
+    depth.compare_func = ""
+    depth.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    distance = _texture(context, fine, 1, "f4", moderngl.NEAREST)
     picture = _texture(context, size, 4, "f1", moderngl.LINEAR)
     return PictureTargets(
         size=size,
         supersampling=supersampling,
-        scene=context.framebuffer([colour], context.depth_renderbuffer(fine)),
+        scene=context.framebuffer([colour], depth),
         colour=colour,
+        depth=depth,
+        distance_target=context.framebuffer([distance]),
+        distance=distance,
         shown=context.framebuffer([picture]),
         picture=picture,
     )
