@@ -27,7 +27,9 @@ from .model import HairState
 from .settings import DynamicsSettings
 from .springs import LinkState
 
-PARTS = 2
+# A step has two parts for links of 3 cm, and more the shorter they are: between two parts no link should turn round.
+_FEWEST_PARTS = 2
+_PART_LENGTH = 0.056  # [m]
 _TOLERANCE = 1e-3
 _MOST_ITERATIONS = 60
 
@@ -38,19 +40,21 @@ class ImplicitSolver:
     def __init__(self, dynamics: Dynamics) -> None:
         self.dynamics = dynamics
         self.iterations = 0
+        spacing = float(np.median(dynamics.model.rest_length)) if len(dynamics.model.rest_length) else _PART_LENGTH
+        self.parts = max(_FEWEST_PARTS, round(_PART_LENGTH / spacing))
         self._matrix = _SpringMatrix(dynamics)
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
 
         Hair-hair interactions are the dear part and change slowly: they are found once. Springs, inertia and contact go
-        through the step in ``PARTS``.
+        through the step in ``parts``.
         """
         dynamics = self.dynamics
         outer = dynamics.outer_acceleration(state, now, dt)
         directions = state.directions
-        for _ in range(PARTS):
-            state = self._part(state, now, outer, dt / PARTS)
+        for _ in range(self.parts):
+            state = self._part(state, now, outer, dt / self.parts)
         return replace(state, directions=dynamics.turn(state.positions, directions, now.settings))
 
     def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:

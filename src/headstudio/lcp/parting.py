@@ -12,6 +12,7 @@ from .model import HairModel
 # Hands take hair to their sides at this rate [1/s], and no faster than this [m/s].
 _PULL = 8.0
 _TOP_SPEED = 0.5
+_STRAYS = 0.03
 # Hair this close to the scalp is not taken along: it cannot go [m].
 _FREE_LENGTH = 0.05
 
@@ -55,11 +56,11 @@ class Parting:
 def gap(model: HairModel, parting: Parting, positions: Floats) -> float:
     """Width of the gap between the two sides of a parting in the lower half of the hair [m], 0 when they overlap.
 
-    The sides' edges are taken where a tenth of each side's particles lies further in, so that a stray does not close it.
+    The edge of a side is where few of its particles lie further in, so that a stray does not close the gap.
     """
     lower = model.arc_length > 0.5 * model.arc_length.max()
     across = positions @ parting.normal
     left, right = across[lower & (parting.side > 0)], across[lower & (parting.side < 0)]
     if len(left) == 0 or len(right) == 0:
         return 0.0
-    return max(0.0, float(np.quantile(left, 0.1) - np.quantile(right, 0.9)))
+    return max(0.0, float(np.quantile(left, _STRAYS) - np.quantile(right, 1.0 - _STRAYS)))

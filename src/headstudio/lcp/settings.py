@@ -53,7 +53,7 @@ class DynamicsSettings:
     """How hair moves: Bando et al. 2006, sections 3.3 to 3.5."""
 
     elastic_modulus: float = number(
-        5e5,
+        3e5,
         "Elastic modulus",
         "Pa",
         1e4,
@@ -63,7 +63,7 @@ class DynamicsSettings:
         live=True,
     )
     bending_scale: float = number(
-        0.05,
+        0.1,
         "Bending scale",
         "",
         0.0,
@@ -81,10 +81,10 @@ class DynamicsSettings:
         live=True,
     )
     spring_damping: float = number(
-        1.0, "Spring damping", "", 0.0, 2.0, "Damping of the springs as a fraction of critical.", live=True
+        2.0, "Spring damping", "", 0.0, 5.0, "Damping of the springs as a fraction of critical.", live=True
     )
     air_friction: float = number(
-        0.8, "Air friction", "1/s", 0.0, 20.0, "Rate at which still air slows hair down.", live=True
+        1.5, "Air friction", "1/s", 0.0, 20.0, "Rate at which still air slows hair down.", live=True
     )
     gravity: float = number(9.81, "Gravity", "m/s^2", 0.0, 30.0, "Acceleration of free fall.", live=True)
     interactions: bool = switch(
