@@ -112,4 +112,5 @@ def _dot(a: Floats, b: Floats) -> Floats:
 
 
 def _gather(at_i: Floats, at_j: Floats, i: Ints, j: Ints, count: int) -> Floats:
-    return np.bincount(i, at_i, count) + np.bincount(j, at_j, count)
+    gathered: Floats = np.bincount(i, at_i, count) + np.bincount(j, at_j, count)
+    return gathered
