@@ -56,7 +56,7 @@ class DynamicsSettings:
         3e5,
         "Elastic modulus",
         "Pa",
-        1e4,
+        1e5,
         1e7,
         "Tensile modulus E that every particle keeps (eq. 8).",
         log=True,
@@ -127,7 +127,7 @@ class DynamicsSettings:
         live=True,
     )
     body_friction: float = number(
-        0.3, "Body friction", "", 0.0, 2.0, "Coulomb's coefficient between hair and skin (thesis 3.23).", live=True
+        0.3, "Body friction", "", 0.0, 1.0, "Coulomb's coefficient between hair and skin (thesis 3.23).", live=True
     )
 
 
