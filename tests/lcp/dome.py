@@ -125,7 +125,10 @@ def bundle(strands=3, joints=6, spacing=0.01):
     """Parallel strands that hang down, each particle linked to all those one joint further along."""
     grid = np.array([[s, -j, 0] for j in range(joints) for s in range(strands)], dtype=float) * spacing
     pairs = [
-        (j * strands + s, (j + 1) * strands + t) for j in range(joints - 1) for s in range(strands) for t in range(strands)
+        (j * strands + s, (j + 1) * strands + t)
+        for j in range(joints - 1)
+        for s in range(strands)
+        for t in range(strands)
     ]
     directions = np.tile([0.0, -1.0, 0.0], (len(grid), 1))
     return hair_of(grid, directions, pairs, fixed=range(strands), smoothing_length_links=1.3 * spacing)

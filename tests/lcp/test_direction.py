@@ -23,12 +23,14 @@ def random_units(count, seed=0):
 
 
 def test_hair_at_rest_keeps_its_directions(hair):
-    np.testing.assert_allclose(updated(hair, hair.rest_positions, hair.rest_directions), hair.rest_directions, atol=1e-9)
+    np.testing.assert_allclose(
+        updated(hair, hair.rest_positions, hair.rest_directions), hair.rest_directions, atol=1e-9
+    )
 
 
 def test_hair_that_is_turned_as_a_whole_turns_its_directions(hair):
     turn = Rotation.from_rotvec([0.4, 1.9, -0.6])
-    new = updated(hair, turn.apply(hair.rest_positions) + [0.1, 2.0, -0.3], turn.apply(hair.rest_directions))
+    new = updated(hair, turn.apply(hair.rest_positions) + np.array([0.1, 2.0, -0.3]), turn.apply(hair.rest_directions))
     free = ~hair.fixed
     np.testing.assert_allclose(new[free], turn.apply(hair.rest_directions)[free], atol=1e-9)
 

@@ -55,7 +55,7 @@ def test_they_are_spread_evenly(spread, dome):
 def test_they_fill_the_length_map_and_nothing_more():
     scalp = DomeScalp(shortest=0.2)
     coordinates = distribute(scalp, LONGEST, DEPTH, 2000, np.random.default_rng(1))
-    u, v, s = coordinates.T
+    _, v, s = coordinates.T
     assert np.all((coordinates[:, :2] >= 0) & (coordinates[:, :2] <= 1))
     assert np.all((s >= -DEPTH) & (s <= LONGEST * scalp.lengths(coordinates[:, :2])))
     quarters = np.histogram(v, bins=4, range=(0, 1))[0] / len(v)

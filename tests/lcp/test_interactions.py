@@ -175,7 +175,13 @@ def test_hair_that_moves_together_is_not_slowed_down():
 
 
 @settings(max_examples=40, deadline=None)
-@given(st.integers(0, 2**32 - 1), st.floats(0.004, 0.06), st.floats(0, 10), st.floats(0, 10), st.sampled_from([1e-4, 1 / 60, 0.1]))
+@given(
+    st.integers(0, 2**32 - 1),
+    st.floats(0.004, 0.06),
+    st.floats(0, 10),
+    st.floats(0, 10),
+    st.sampled_from([1e-4, 1 / 60, 0.1]),
+)
 def test_rubbing_never_gives_energy(seed, size, collision, friction, dt):
     """However dense the hair, however strong the damping and long the step: it slows hair down, and does not turn it round."""
     model, v = crowd(40, seed, size)
