@@ -14,6 +14,11 @@ out vec4 colour;
 // Light creeps around the edge of the shadow, red the farthest, since red travels farthest under the skin.
 const vec3 wrap = vec3(0.34, 0.15, 0.09);
 
+float fifth(float x) {
+    float square = x * x;
+    return square * square * x;
+}
+
 float lobe(float n_h, float n_l, float n_v, float roughness) {
     float a2 = roughness * roughness * roughness * roughness;
     float d = n_h * n_h * (a2 - 1.0) + 1.0;
@@ -38,7 +43,7 @@ void main() {
     albedo = mix(albedo, hair_colour * 0.35, max(brow, cover));
 
     float lit = light_at(v_place + n * 0.0015, 0.0015 + 0.003 * (1.0 - max(dot(n, l), 0.0)), 0.004);
-    vec3 soft_lit = vec3(pow(lit, 0.75), lit, lit);
+    vec3 soft_lit = vec3(lit * (1.3 - 0.3 * lit), lit, lit);
 
     float n_l = dot(n, l);
     vec3 wrapped = clamp((vec3(n_l) + wrap) / (1.0 + wrap), 0.0, 1.0);
@@ -46,16 +51,16 @@ void main() {
 
     float open = 1.0 - v_paint.x;
     // Light bounces between nearby skin: cavities go red-brown before they go black.
-    vec3 open_tint = pow(vec3(max(open, 0.02)), vec3(0.75, 1.05, 1.15));
+    vec3 open_tint = open * (1.0 + vec3(0.30, -0.05, -0.14) * (1.0 - open));
     vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * open_tint;
 
     vec3 h = normalize(l + to_eye);
     float n_h = max(dot(n, h), 0.0), n_v = max(dot(n, to_eye), 0.0), front = max(n_l, 0.0);
-    float fresnel = 0.028 + 0.972 * pow(1.0 - max(dot(h, to_eye), 0.0), 5.0);
+    float fresnel = 0.028 + 0.972 * fifth(1.0 - max(dot(h, to_eye), 0.0));
     float rough = mix(0.48, 0.34, lips);
     float shine = mix(lobe(n_h, front, n_v, rough), lobe(n_h, front, n_v, rough * 0.58), 0.28 + 0.2 * lips);
     shine *= fresnel * front * lit * 2.2 * (1.0 - max(brow, cover));
-    float rim = 0.028 + 0.30 * pow(1.0 - n_v, 5.0);
+    float rim = 0.028 + 0.30 * fifth(1.0 - n_v);
     vec3 sheen = mix(ground.rgb, sky.rgb, clamp(reflect(-to_eye, n).y * 0.5 + 0.5, 0.0, 1.0)) * rim * open * open;
 
     vec3 mirrored = radiance.rgb * shine + sheen * (1.0 - cover);

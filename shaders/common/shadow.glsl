@@ -18,10 +18,8 @@ float past_objects_at(vec3 at, float radius) {
 }
 
 float through_hair_at(vec2 at, float radius) {
-    float reach = radius / shadow.y;
-    float light = 0.0;
-    for (int k = 1; k < 5; ++k) light += textureLod(light_map, at + disc[k] * reach, 0.0).r;
-    return light * 0.25;
+    float reach = 0.7 * radius / shadow.y;
+    return 0.5 * (textureLod(light_map, at + reach, 0.0).r + textureLod(light_map, at - reach, 0.0).r);
 }
 
 // bias [m] towards the light.

@@ -14,9 +14,7 @@ void main() {
     float alpha = strand.r * sides(v_body.w) * v_gleam.w;
 
     // Kajiya and Kay's highlight, moved along each strand by its own scales; a second, wider one has the hair's colour.
-    float shift = 0.28 * (strand.g - 0.5);
-    float t_l = v_gleam.x + shift, t_v = v_gleam.y + shift;
-    float cosine = max(sqrt(max((1.0 - t_l * t_l) * (1.0 - t_v * t_v), 0.0)) - t_l * t_v, 0.0);
+    float cosine = clamp(v_gleam.x + v_gleam.y * (strand.g - 0.5), 0.0, 1.0);
     // Schlick's rational stand-in for the power gloss / 8, squared.
     float wide = cosine / (0.125 * gloss * (1.0 - cosine) + cosine);
     wide *= wide;

@@ -17,11 +17,12 @@ uniform float opacity;
 uniform float transmission;
 out vec2 v_at;
 out vec4 v_body;    // light that comes back from all sides of a strand; side of the ribbon
-out vec4 v_gleam;   // cosines of the strand to the light and to the eye, strength of the highlight, opacity
+out vec4 v_gleam;   // cosine of the highlight, its change with the tone of a strand, its strength; opacity
 
 const int sections = 7;
 const int texels = 2 * sections + 1;
 const float least_sine = 0.3;
+const float scales = 0.28;  // how far the scales tilt the darkest and the lightest strand apart
 const vec3 above = vec3(0.0, 0.96, 0.28);
 
 // A ribbon is straighter than the shoulder it lies on. Where it runs just under the skin it is drawn a little above it
@@ -80,7 +81,10 @@ void main() {
     vec3 soft = mix(ground.rgb, sky.rgb, 0.35 + 0.5 * sin_u) * open;
     vec3 body = hair_colour * (radiance.rgb * deep * sin_l * directed + soft * (0.68 + 1.4 * sheen)) + soft * sheen * 0.02;
     v_body = vec4(body * exp(0.20 * look.y), corner.x);
-    v_gleam = vec4(t_l, t_v, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown);
+    // The cosine between the eye and the mirrored light, and how it changes where scales tilt a strand.
+    float sines = max(sin_l * sine, 0.05);
+    float tilt = -(t_l * sine * sine + t_v * sin_l * sin_l) / sines - t_l - t_v;
+    v_gleam = vec4(sin_l * sine - t_l * t_v, scales * tilt, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown);
     v_at = vec2(look.x + 0.5 * window_width * corner.x, 0.5 + 0.5 * along);
     gl_Position = clip_from_world * vec4(place, 1.0);
     gl_Position.z = lifted_depth(gl_Position);

@@ -3,7 +3,6 @@
 uniform sampler2D linear_picture;
 uniform vec3 background;  // linear
 uniform vec2 size;
-uniform int supersampling;
 out vec4 colour;
 
 // A mild film curve: straight in the shadows, a long soft shoulder. Half of it is taken by the brightness alone, so that
@@ -14,18 +13,16 @@ vec3 film(vec3 x) {
     return mix(curved.rgb, x * (curved.a / max(bright, 1e-4)), 0.5);
 }
 
+// sRGB's curve with roots in place of the power, which a processor takes long for; nowhere off by more than 0.4 of 255.
 vec3 srgb(vec3 c) {
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+    vec3 second = sqrt(c), fourth = sqrt(second), eighth = sqrt(fourth);
+    return mix(12.92 * c, 0.585122381 * second + 0.783140355 * fourth - 0.368262736 * eighth, step(0.0031308, c));
 }
 
 void main() {
     vec2 off = (gl_FragCoord.xy / size - vec2(0.5, 0.55)) * vec2(size.x / size.y, 1.0);
     vec3 behind = background * mix(1.25, 0.62, smoothstep(0.0, 0.9, length(off)));
-    ivec2 corner = ivec2(gl_FragCoord.xy) * supersampling;
-    vec3 shown = vec3(0.0);
-    for (int k = 0; k < supersampling * supersampling; ++k) {
-        vec4 light = texelFetch(linear_picture, corner + ivec2(k % supersampling, k / supersampling), 0);
-        shown += film(max(light.rgb, 0.0) / max(light.a, 1e-4)) * light.a + behind * (1.0 - light.a);
-    }
-    colour = vec4(srgb(clamp(shown / float(supersampling * supersampling), 0.0, 1.0)), 1.0);
+    vec4 light = texelFetch(linear_picture, ivec2(gl_FragCoord.xy), 0);
+    vec3 shown = film(max(light.rgb, 0.0) / max(light.a, 1e-4)) * light.a + behind * (1.0 - light.a);
+    colour = vec4(srgb(clamp(shown, 0.0, 1.0)), 1.0);
 }

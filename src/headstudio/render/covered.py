@@ -8,9 +8,10 @@ from ..head.mesh import Floats
 from .strands import HairCurves
 from .view import View
 
-_LAYERS = (8, 14)
-"""With so many particles in front one begins to be left out, and is gone. Each lets about 60 % of the light past, so what
-goes shone through by less than 2 %, and it goes little by little."""
+_LAYERS = (4, 7)
+"""With so many sections in front a particle begins to be left out, and is gone. Only every other section is counted, and a
+cell holds about one of every two particles that cross it: so nearly twice as many particles stand before what goes, each
+lets about 60 % of the light past, and what goes shone through by less than 2 %."""
 
 
 def shown_through_hair(curves: HairCurves, view: View, cell: float) -> Floats:
@@ -19,8 +20,9 @@ def shown_through_hair(curves: HairCurves, view: View, cell: float) -> Floats:
     The picture is divided into cells of ``cell`` [m] (at the depth of the hair); what counts is the section of the curve
     that has the fewest other sections before it in its cell.
     """
-    count, sections = curves.path.shape[:2]
-    across, depth = _projected(curves.path, view)
+    path = curves.path[:, ::2]
+    count, sections = path.shape[:2]
+    across, depth = _projected(path, view)
     cells = np.floor(across / cell).astype(np.int64)
     cells -= cells.min(axis=(0, 1))
     key = (cells[..., 0] * (cells[..., 1].max() + 1) + cells[..., 1]).ravel()

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from ..scene.settings import Camera, Look
 from ..scene.stage import Stage
 from .body import Body, BodyPrograms
-from .context import load_program, set_uniforms
 from .hair import Hair, HairPrograms
 from .overlays import OverlayPass
 from .scene_block import SCENE_DTYPE, linear, scene_block
+from .screen import ScreenPasses
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
 from .timing import StageTimer
 from .view import View, camera_view, light_view
@@ -31,10 +31,7 @@ class Renderer:
         self._body_programs = BodyPrograms(context)
         self._hair_programs = HairPrograms(context)
         self._overlays = OverlayPass(context)
-        self._develop = load_program(context, "picture/screen.vert", "picture/develop.frag")
-        self._screen = context.vertex_array(self._develop, [])
-        self._distance = load_program(context, "picture/screen.vert", "picture/distance.frag")
-        self._distance_screen = context.vertex_array(self._distance, [])
+        self._screens = ScreenPasses(context, "distance", "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | None = None
         self._hair: Hair | None = None
@@ -105,16 +102,8 @@ class Renderer:
                 self._draw_hair(hair, view, look, targets)
         with timer.stage("overlays"), self.context.scope(targets.scene, moderngl.PROGRAM_POINT_SIZE):
             self._overlays.draw(stage.overlays)
-        with timer.stage("develop"), self.context.scope(targets.shown, moderngl.NOTHING):
-            targets.colour.use(0)
-            set_uniforms(
-                self._develop,
-                linear_picture=0,
-                background=tuple(linear(look.background)),
-                size=(float(width), float(height)),
-                supersampling=targets.supersampling,
-            )
-            self._screen.render(moderngl.TRIANGLES, vertices=3)
+        with timer.stage("develop"):
+            self._develop_picture(look, targets)
 
     def _pull(self, stage: Stage, look: Look) -> tuple[Body, Hair | None]:
         if self._body is None or self._body.head is not stage.head:
@@ -158,13 +147,23 @@ class Renderer:
     def _draw_hair(self, hair: Hair, view: View, look: Look, targets: PictureTargets) -> None:
         with self.context.scope(targets.distance_target, moderngl.NOTHING):
             targets.depth.use(3)
-            set_uniforms(self._distance, depth=3)
-            self._distance_screen.render(moderngl.TRIANGLES, vertices=3)
+            self._screens.draw("distance", depth=3)
         with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
             targets.scene.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             hair.draw(view, look, targets.distance)
             targets.scene.depth_mask = True
+
+    def _develop_picture(self, look: Look, targets: PictureTargets) -> None:
+        width, height = targets.size
+        if targets.supersampling > 1:
+            with self.context.scope(targets.reduced_target, moderngl.NOTHING):
+                targets.colour.use(0)
+                self._screens.draw("reduce", fine=0, supersampling=targets.supersampling)
+        with self.context.scope(targets.shown, moderngl.NOTHING):
+            targets.reduced.use(0)
+            background = tuple(linear(look.background))
+            self._screens.draw("develop", linear_picture=0, background=background, size=(float(width), float(height)))
 
     def _targets_for(self, size: Size, supersampling: int) -> PictureTargets:
         known = self._targets

@@ -16,7 +16,8 @@ class PictureTargets:
     """Linear colour (half floats, premultiplied alpha) with depth, and what is shown (8 bits, sRGB).
 
     ``scene`` is ``supersampling`` times as large as ``size``. ``distance`` holds how far away the body is [m]: the hair
-    reads it while the depth buffer is in use.
+    reads it while the depth buffer is in use. ``reduced`` is the colour at the size of the picture: the same texture, or
+    the mean of it when there is supersampling.
     """
 
     size: Size
@@ -24,6 +25,8 @@ class PictureTargets:
     scene: moderngl.Framebuffer
     colour: moderngl.Texture
     depth: moderngl.Texture
+    reduced: moderngl.Texture
+    reduced_target: moderngl.Framebuffer
     distance_target: moderngl.Framebuffer
     distance: moderngl.Texture
     shown: moderngl.Framebuffer
@@ -51,6 +54,7 @@ def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -
     depth = context.depth_texture(fine)
     depth.compare_func = ""
     depth.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    reduced = colour if supersampling == 1 else _texture(context, size, 4, "f2", moderngl.NEAREST)
     distance = _texture(context, fine, 1, "f4", moderngl.NEAREST)
     picture = _texture(context, size, 4, "f1", moderngl.LINEAR)
     return PictureTargets(
@@ -59,6 +63,8 @@ def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -
         scene=context.framebuffer([colour], depth),
         colour=colour,
         depth=depth,
+        reduced=reduced,
+        reduced_target=context.framebuffer([reduced]),
         distance_target=context.framebuffer([distance]),
         distance=distance,
         shown=context.framebuffer([picture]),
