@@ -152,7 +152,7 @@ def test_ctrl_c_says_cancelled_with_status_130(tmp_path):
 
 
 def test_a_reader_who_has_seen_enough_is_no_error(tmp_path):
-    line = f"{sys.executable} -c 'from headstudio.cli import main; main()' params | head -n 1"
-    done = subprocess.run(["bash", "-c", line], cwd=tmp_path, capture_output=True, text=True)
+    line = "\"$0\" -c 'from headstudio.cli import main; main()' params | head -n 1"
+    done = subprocess.run(["bash", "-c", line, sys.executable], cwd=tmp_path, capture_output=True, text=True)
     assert done.stdout.startswith("head.source")
     assert "Traceback" not in done.stderr

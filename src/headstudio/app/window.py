@@ -41,7 +41,9 @@ class Window:
         # GLFW's Python layer gives a list of paths, whatever its type says.
         glfw.set_drop_callback(self._handle, self._take_dropped)  # type: ignore[arg-type]
         try:
-            self.gl = moderngl.create_context(require=330)
+            # Of the window's context, whatever made it and whatever other contexts this process has.
+            moderngl.init_context()
+            self.gl = moderngl.get_context()
         except Exception as error:  # moderngl raises plain Exceptions, with the reason in the text
             self._destroy()
             raise WindowError(f"this machine gives no OpenGL 3.3 ({error}); run headstudio demo instead") from None
@@ -102,6 +104,8 @@ class Window:
             glfw.wait_events_timeout(wait)
         else:
             glfw.poll_events()
+        # A picture that was drawn without the window, in a context of its own, has left that one current.
+        glfw.make_context_current(self._handle)
         imgui.backends.opengl3_new_frame()
         imgui.backends.glfw_new_frame()
         if seconds is not None:
