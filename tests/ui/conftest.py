@@ -30,7 +30,7 @@ def application() -> Iterator[Application]:
 
 
 @pytest.fixture
-def driver(application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Driver:
+def driver(application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Driver]:
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     studio = application.studio
     start = assign(type(studio.document)(), SMALL)
@@ -45,4 +45,5 @@ def driver(application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyP
     driver.built()
     studio.reset()
     driver.frames()
-    return driver
+    yield driver
+    assert application.window.gl.error == "GL_NO_ERROR"

@@ -88,7 +88,9 @@ def test_f_shows_head_and_hair_in_full(driver):
 def test_the_picture_is_drawn_again_only_when_something_changes(driver, monkeypatch):
     drawn = []
     render = driver.app.viewport.renderer.render
-    monkeypatch.setattr(driver.app.viewport.renderer, "render", lambda *args: drawn.append(args) or render(*args))
+    monkeypatch.setattr(
+        driver.app.viewport.renderer, "render", lambda *args, **more: drawn.append(args) or render(*args, **more)
+    )
     driver.frames(5)
     assert drawn == []
     driver.studio.set("look.ambient", 1.0, "Ambient")

@@ -52,11 +52,6 @@ def test_the_panels_can_be_hidden_and_resized(driver):
     assert driver.rect("Viewport").width == pytest.approx(before.width, abs=2)
 
 
-def test_opengl_is_left_without_errors(driver):
-    driver.frames(2)
-    assert driver.app.window.gl.error == "GL_NO_ERROR"
-
-
 def test_without_a_display_one_line_says_what_to_do():
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     code = (

@@ -105,14 +105,15 @@ class Actions:
     # -- pictures ----------------------------------------------------------------------------------------------------
 
     def export_picture(self) -> None:
-        """Ask where to, and write what the viewport shows, at its full resolution."""
+        """Ask where to, and write what the viewport shows, in its size and smoother."""
         wish = FileWish("Export the picture", (".png",), saving=True, suggestion=f"{self._studio.work.name}.png")
-        self._app.dialogs.ask_file(wish, self._write_picture)
+        # Drawing another picture takes the texture away that this frame is going to show: wait for its end.
+        self._app.dialogs.ask_file(wish, lambda path: self._app.after_frame.append(lambda: self._write_picture(path)))
 
     def _write_picture(self, path: Path) -> None:
         path = path if path.suffix else path.with_suffix(".png")
         with self._studio.reporting() as outcome:
-            Image.fromarray(self._app.viewport.picture()).save(path)
+            Image.fromarray(self._app.viewport.picture(supersampling=2)).save(path)
         if outcome.good:
             self._studio.messages.say(f"Wrote {path}", "good")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from imgui_bundle import imgui
 
@@ -47,6 +48,7 @@ class Application:
         self.sidebar = Sidebar(self.rows, self.viewport)
         self.transport = Transport(studio, self.recorder, self.actions.record)
         self.closed = False
+        self.after_frame: list[Callable[[], object]] = []
         self._measured: Stage | None = None
         self._unmeasured = MEASURE_EVERY
         window.on_drop = self.actions.take_dropped
@@ -77,6 +79,8 @@ class Application:
         self.window.set_title(f"{self.studio.work.name}{' *' if self.studio.work.modified else ''} - headstudio")
         self.window.end_frame(theme.GROUND)
         self._record()
+        while self.after_frame:
+            self.after_frame.pop(0)()
 
     @property
     def _idle(self) -> bool:

@@ -26,7 +26,9 @@ def main(project: str | None = None, changes: Mapping[str, Any] = NOTHING) -> No
     warnings = studio.work.open(Path(project)) if project is not None else studio.work.start_over()
     for warning in warnings:
         studio.messages.say(warning, "warning")
-    studio.work.change(assign(studio.work.document, changes), "Command line")
+    changed = assign(studio.work.document, changes)
+    studio.work.change(changed, "Command line")
+    studio.work.look(changed.camera, "Command line")
     window = Window("headstudio")
     try:
         Application(window, studio).run()

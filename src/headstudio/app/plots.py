@@ -78,6 +78,8 @@ class Plots:
     def record(self, time: float, measures: dict[str, float], milliseconds: dict[str, float]) -> None:
         """Take the figures of one frame at simulated ``time`` [s]: measures by name, and the time of each stage [ms]."""
         self._time = time
+        # A stage that did not run took no time.
+        milliseconds = dict.fromkeys(self._stages, 0.0) | milliseconds
         for kept, figures in ((self._measured, measures), (self._stages, milliseconds)):
             for name, value in figures.items():
                 kept.setdefault(name, Series()).add(time, value)

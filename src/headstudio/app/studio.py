@@ -80,6 +80,7 @@ class Studio:
         """Start an empty project."""
         for warning in self.work.start_over():
             self.messages.say(warning, "warning")
+        self.reset()
 
     def open(self, path: Path) -> bool:
         """Open a project; False, with a message, when it cannot be opened."""
@@ -87,6 +88,7 @@ class Studio:
             for warning in self.work.open(path):
                 self.messages.say(warning, "warning")
             self.messages.say(f"Opened {path.name}", "good")
+            self.reset()
         return outcome.good
 
     def save(self, path: Path) -> bool:

@@ -36,6 +36,7 @@ class _Drawn:
     look: Look
     camera: Camera
     size: tuple[int, int]
+    supersampling: int
 
 
 class Viewport:
@@ -99,9 +100,12 @@ class Viewport:
         """Look from one of the named sides."""
         self.studio.work.look(seen_from(self.studio.document.camera, name), name.capitalize())
 
-    def picture(self) -> NDArray[np.uint8]:
-        """What is on show, at the full resolution of the view, shape (height, width, 3), first row on top."""
-        self._render(self._pixels_per_unit, coarser=False)
+    def picture(self, supersampling: int = 1) -> NDArray[np.uint8]:
+        """What is on show, at the full resolution of the view, shape (height, width, 3), first row on top.
+
+        ``supersampling``: how many times finer it is drawn before every pixel takes the mean.
+        """
+        self._render(self._pixels_per_unit, supersampling)
         return self.renderer.read_pixels()
 
     def _frame_points(self, *, everything: bool) -> None:
@@ -117,21 +121,22 @@ class Viewport:
         )
         self.studio.work.look(camera, "Frame all" if everything else "Frame head")
 
-    def _render(self, pixels_per_unit: float, *, coarser: bool = True) -> None:
-        """Draw the scene, unless nothing in it has changed."""
+    def _render(self, pixels_per_unit: float, supersampling: int | None = None) -> None:
+        """Draw the scene, unless nothing in it has changed; without ``supersampling`` maybe coarser while it moves."""
         stage, document = self.studio.stage, self.studio.document
         if stage is None:
             return
-        moving = coarser and self.adaptive and (self.studio.playback.playing or self._held is not None)
+        hasty = supersampling is None and self.adaptive
+        moving = hasty and (self.studio.playback.playing or self._held is not None)
         part = RESOLUTIONS[self._resolution] if moving else 1.0
         density = pixels_per_unit * part
         size = (max(int(self.rect.width * density), 16), max(int(self.rect.height * density), 16))
-        wanted = _Drawn(stage, document.look, document.camera, size)
+        wanted = _Drawn(stage, document.look, document.camera, size, supersampling or 1)
         if wanted == self._drawn:
             return
         started = time.perf_counter()
         with self.studio.reporting() as outcome:
-            self.renderer.render(stage, document.look, document.camera, size)
+            self.renderer.render(stage, document.look, document.camera, size, supersampling=wanted.supersampling)
         # A picture that failed is not tried again until something changes.
         self._drawn = wanted
         if outcome.good and moving:

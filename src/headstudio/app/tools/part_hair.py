@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from imgui_bundle import icons_fontawesome_6 as icons
+from imgui_bundle import imgui
 
 from ..ui import Ui
 from .tool import Pointer, Tool
@@ -31,6 +32,7 @@ class PartHair(Tool):
         """Hold without keeping the button down."""
         if ui.button("Hold apart"):
             self._hold()
+        imgui.same_line()
         if ui.button("Let go"):
             self.release()
 
