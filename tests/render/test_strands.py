@@ -39,13 +39,13 @@ def test_curve_of_straight_hair_is_straight_and_as_long_as_asked() -> None:
 
 
 def test_curve_follows_its_neighbours_around_a_circle() -> None:
-    radius, step = 0.05, 0.2
-    angle = step * np.arange(8)
+    radius, step, count = 0.05, 0.2, 15
+    angle = step * np.arange(count)
     circle = radius * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
     tangent = np.stack([-np.sin(angle), np.cos(angle), 0 * angle], axis=1)
-    model = model_of(circle, tangent, radius * angle, np.zeros((8, 3)))
+    model = model_of(circle, tangent, radius * angle, np.zeros((count, 3)))
     curves = curves_of(model, half_length=radius * step)
-    np.testing.assert_allclose(np.linalg.norm(curves.path[4], axis=1), radius, rtol=5e-3)
+    np.testing.assert_allclose(np.linalg.norm(curves.path[count // 2], axis=1), radius, rtol=5e-3)
 
 
 def test_curves_do_not_start_deeper_than_the_roots(hair_model: HairModel) -> None:
@@ -61,6 +61,15 @@ def test_curves_turn_with_the_head(hair_model: HairModel) -> None:
     still, turned = curves_of(hair_model), curves_of(hair_model, frame)
     np.testing.assert_allclose(frame.to_world(still.path.reshape(-1, 3)), turned.path.reshape(-1, 3), atol=1e-12)
     np.testing.assert_allclose(frame.rotation.apply(still.sideways), turned.sideways, atol=1e-12)
+
+
+def test_one_particle_that_points_aside_is_combed() -> None:
+    model = straight_hair(12)
+    directions = model.rest_directions.copy()
+    directions[6] = [1.0, 0.0, 0.0]
+    curves = CurveBuilder(model).curves(HairOnStage(model, model.rest_positions, directions), HeadFrame(), 0.02)
+    assert curves.direction[6] @ [0, -1, 0] > 0.9
+    np.testing.assert_allclose(np.einsum("ni,ni->n", curves.sideways, curves.direction), 0, atol=1e-9)
 
 
 def test_sideways_stays_across_hair_that_moved(hair_model: HairModel) -> None:

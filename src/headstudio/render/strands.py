@@ -63,7 +63,8 @@ class CurveBuilder:
         """The curves reaching ``half_length`` [m] to both sides of each particle, but not out of the roots."""
         turn = frame.rotation.as_matrix().T
         position = hair.positions @ turn + frame.translation
-        direction = hair.directions @ turn
+        combed = self._combed(hair)
+        direction = combed @ turn
         rootward = self._directions(self._rootward_mean, direction)
         tipward = self._directions(self._tipward_mean, direction)
         path, tangent = np.empty((2, len(position), SECTIONS, 3))
@@ -79,7 +80,19 @@ class CurveBuilder:
                 along[:, here] = sign * k / _MIDDLE * length / half_length
         from_scalp = self.model.arc_length[:, None] + half_length * along
         grown = np.clip((from_scalp - _LEAVES_SCALP[0]) / (_LEAVES_SCALP[1] - _LEAVES_SCALP[0]), 0.0, 1.0)
-        return HairCurves(position, direction, self._sideways(hair.directions) @ turn, path, tangent, along, grown)
+        return HairCurves(position, direction, self._sideways(combed) @ turn, path, tangent, along, grown)
+
+    def _combed(self, hair: HairOnStage) -> Floats:
+        """Unit directions, (n, 3), each smoothed with its neighbours', and with the way from the ones to the others.
+
+        A particle's own direction is that of one point. What is drawn stands for the hair over centimetres, and hair
+        that is shaken stays combed: neighbours that point apart would be seen as feathers.
+        """
+        before, after = self._rootward_mean @ hair.directions, self._tipward_mean @ hair.directions
+        way = self._tipward_mean @ hair.positions - self._rootward_mean @ hair.positions
+        between = (np.diff(self._rootward_mean.indptr) > 0) & (np.diff(self._tipward_mean.indptr) > 0)
+        way = np.where(between[:, None], unit(way), 0.0)
+        return unit(hair.directions + before + after + way)
 
     def _directions(self, mean: csr_array, direction: Floats) -> list[Floats]:
         """Directions of the hair at the particle, one neighbour and two neighbours away; straight on where it ends."""
