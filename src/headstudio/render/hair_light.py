@@ -15,9 +15,9 @@ from .strands import HairCurves
 from .targets import LightTargets
 from .view import View
 
-BATCHES = 16
-"""How many times the light map is read while it is drawn. Within a batch the light is worked out exactly, so this is a
-matter of speed alone: more batches cost more passes, fewer cost more arithmetic."""
+BATCH = 160
+"""How many particles go between two readings of the light map. Within a batch the light is worked out exactly, so this is
+a matter of speed alone: small batches cost more passes, large ones more arithmetic."""
 
 
 class LightPrograms:
@@ -75,9 +75,8 @@ class HairLight:
         rows = self.received.height
         set_uniforms(self._programs.receive, shadow_map=0, light_map=1, strands=2, billboards=3, rows=rows)
         set_uniforms(self._programs.splat, strands=2, billboards=3, received=4, map_size=float(maps.size))
-        batch = -(-count // BATCHES)
-        for first in range(0, count, batch):
-            in_batch = min(batch, count - first)
+        for first in range(0, count, BATCH):
+            in_batch = min(BATCH, count - first)
             with self._context.scope(self._received_target, moderngl.PROGRAM_POINT_SIZE):
                 set_uniforms(self._programs.receive, first=first)
                 self._receive.render(moderngl.POINTS, vertices=in_batch, first=first)

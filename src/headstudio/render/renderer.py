@@ -81,6 +81,7 @@ class Renderer:
 
     def _render(self, stage: Stage, look: Look, camera: Camera, targets: PictureTargets) -> None:
         timer = self.timer
+        timer.start()
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
             maps = self._maps_for(look.shadow_size)
@@ -140,6 +141,7 @@ class Renderer:
     def _draw_body(self, body: Body | None, view: View, look: Look, targets: PictureTargets) -> None:
         with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            targets.scene.depth_mask = True
             targets.scene.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
             if body is not None:
                 body.draw(view, look)
@@ -152,7 +154,6 @@ class Renderer:
             targets.scene.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             hair.draw(view, look, targets.distance)
-            targets.scene.depth_mask = True
 
     def _develop_picture(self, look: Look, targets: PictureTargets) -> None:
         width, height = targets.size

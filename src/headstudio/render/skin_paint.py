@@ -39,7 +39,9 @@ def coarse_faces(mesh: TriangleMesh, cell: float) -> Ints:
 def paint(head: Head) -> Floats:
     """Lips, brows and flush of every vertex of the skin, 0 to 1, (n, 3)."""
     points, marks = head.skin.vertices, head.landmarks
-    return np.stack([_lips(points, marks), _brows(points, marks), _flush(points, marks)], axis=1)
+    has_brows = any(part.kind == "brows" for part in head.parts)
+    brows = np.zeros(len(points)) if has_brows else _brows(points, marks)
+    return np.stack([_lips(points, marks), brows, _flush(points, marks)], axis=1)
 
 
 def standing_out(head: Head, part: Part) -> Floats:

@@ -22,6 +22,10 @@ class StageTimer:
         self.stages: dict[str, float] = {}
         self._context = context
 
+    def start(self) -> None:
+        """Begin a frame: what the last one did and this one does not is no longer in ``stages``."""
+        self.stages = {}
+
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
         """Time what is done inside as ``ms_NAME``."""
