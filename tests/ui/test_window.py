@@ -93,3 +93,14 @@ def test_a_failing_program_keeps_the_work(tmp_path, monkeypatch):
     assert load_project(path).document.lcp.gravity == 3.0
     assert recent_projects() == [path]
     assert work.modified
+
+
+def test_a_minimised_window_draws_nothing_and_waits(driver, monkeypatch):
+    time = driver.studio.time
+    driver.studio.playback.playing = True
+    monkeypatch.setattr(type(driver.app.window), "minimised", property(lambda self: True))
+    driver.frames(3)
+    assert driver.studio.time == time
+    monkeypatch.undo()
+    driver.frames(3)
+    assert driver.studio.time > time

@@ -15,6 +15,7 @@ KEPT = 600
 WINDOW = 8.0  # seconds on show
 STAGES_WIDTH = 1.7  # the plot with its names beside it needs that much more room
 STAGES_SHOWN = 6
+LEAST_WIDTH = 120.0
 
 
 class Series:
@@ -85,12 +86,13 @@ class Plots:
                 kept.setdefault(name, Series()).add(time, value)
 
     def draw(self, ui: Ui, height: float) -> None:
-        """All plots side by side over the width that is left."""
-        gap = ui.px(20)
-        width = (imgui.get_content_region_avail().x - gap * len(FIGURES)) / (len(FIGURES) + STAGES_WIDTH)
+        """The plots side by side over the width that is left, as many as have room."""
+        gap, least, room = ui.px(20), ui.px(LEAST_WIDTH), imgui.get_content_region_avail().x
+        count = min(max(int((room - STAGES_WIDTH * least) / (least + gap)), 0), len(FIGURES))
+        width = (room - gap * count) / (count + STAGES_WIDTH)
         with ui.within("Plots"):
             self._draw_stages(ui, STAGES_WIDTH * width, height)
-            for figure in FIGURES:
+            for figure in FIGURES[:count]:
                 imgui.same_line(0, gap)
                 self._draw_figure(ui, figure, width, height)
 

@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 # isort: split
 import glfw  # after imgui_bundle, which says which libglfw is loaded: both must drive the same one
 
+SMALLEST = (960, 600)
+
 
 class WindowError(RuntimeError):
     """No window can be opened here. The message is one line for the user."""
@@ -37,7 +39,7 @@ class Window:
         glfw.make_context_current(self._handle)
         glfw.swap_interval(0 if headless else 1)
         if not headless:
-            glfw.set_window_size_limits(self._handle, 800, 560, glfw.DONT_CARE, glfw.DONT_CARE)
+            glfw.set_window_size_limits(self._handle, *SMALLEST, glfw.DONT_CARE, glfw.DONT_CARE)
         # GLFW's Python layer gives a list of paths, whatever its type says.
         glfw.set_drop_callback(self._handle, self._take_dropped)  # type: ignore[arg-type]
         try:
