@@ -1,20 +1,25 @@
-"""The bending stiffness that the springs lack: hair keeps, near its root, the shape that it grew in.
+"""The bending stiffness that the springs lack.
 
 The springs of the paper hold hair lengthwise; "the bending stiffness is not modeled explicitly" (Bando et al. 2006,
-section 6), so a head of hair would start to move by sinking from its cantilever shape. But that shape is one of balance:
-a beam of length s, with the bending length l, carries the weight across it and swings back with the square frequency
+section 6). So a head of hair would begin by sinking from its cantilever shape, and fold between one particle and the
+next, where a hair of that length is far too stiff to fold. Hair here keeps the rigidity B of the beam that shaped it, in
+two ways.
 
-    kappa(s) = 12.4 g l^3 / s^4
+Near the root it keeps its place. A beam of length s, with the bending length l, carries the weight across it and swings
+with the square frequency kappa(s) = 12.4 g l^3 / s^4 of its first mode: each particle is drawn to its place in the initial
+shape with kappa(s), strong at the root and nothing at the tip.
 
-of its first mode. So each particle is drawn to its place in the initial shape with kappa(s), which is strong at the root
-and nothing at the tip, and the part of its weight across the hair is carried, near the root, as it is in the beam.
+Everywhere it keeps its curvature. At each particle the mean way to its tipward neighbours, per length, less the mean way
+from its rootward ones is how far the hair turns there; the beam answers with the energy B / 2 times curvature squared.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from scipy import sparse
 
 from ..head.mesh import Floats
+from .kernel import kernel
 from .model import HairModel
 from .settings import DynamicsSettings
 
@@ -22,13 +27,14 @@ _FIRST_MODE = 12.36  # 1.8751^4: first mode of a clamped beam
 _STANDARD_GRAVITY = 9.81  # the one the beam was bent by [m/s^2]
 _HIGHEST = 2000.0  # of kappa [1/s^2]: stiffer hair moves with the head all the same
 _REACH = 2.0  # bending lengths at which half of the weight is still carried
+_RELAXATION = 0.004  # bending dies away within this time beyond its period [s]
 
 
 class Bending:
     """What a model needs to know about its bending stiffness."""
 
     def __init__(self, model: HairModel) -> None:
-        self.rest_positions = model.rest_positions
+        self.model = model
         s = np.maximum(model.arc_length, 1e-6)
         length = model.bending_length
         self._kappa = np.minimum(_FIRST_MODE * _STANDARD_GRAVITY * length**3 / s**4, _HIGHEST)
@@ -37,16 +43,72 @@ class Bending:
         across = down - (t @ down)[:, None] * t
         carried = 1.0 / (1.0 + (s / (_REACH * length)) ** 4)
         self._support = -carried[:, None] * across
+        self._turn, distance = _turning(model)
+        self._turn_back = self._turn.T.tocsr()
+        self._rest_turn = self._turn @ model.rest_positions
+        # B = w l^3 with w the weight per length: energy of a turn of one radian over the distance, per mass [J/kg].
+        self._rigidity = _STANDARD_GRAVITY * length**3 / distance**2
+        # Square frequency of a particle that turns against all its neighbours [1/s^2].
+        self._fastest = 2.0 * self._rigidity * np.asarray(abs(self._turn).sum(axis=1)) ** 2
 
     def kappa(self, settings: DynamicsSettings) -> Floats:
         """Square frequency with which every particle returns to its place [1/s^2], (n,)."""
         return settings.hold * self._kappa
 
-    def support(self, settings: DynamicsSettings) -> Floats:
-        """The weight that bending carries [m/s^2], head frame, (n, 3): all of it from ``hold`` 1 on."""
-        return min(settings.hold, 1.0) * settings.gravity * self._support
+    def place(self, positions: Floats, settings: DynamicsSettings) -> Floats:
+        """Acceleration back to the initial shape, and of the weight that it carries [m/s^2], (n, 3).
 
-    def acceleration(self, positions: Floats, settings: DynamicsSettings) -> Floats:
-        """Both together [m/s^2], (n, 3). positions: head frame [m], (n, 3)."""
-        back = self.kappa(settings)[:, None] * (self.rest_positions - positions)
-        return back + self.support(settings)
+        positions: head frame [m], (n, 3). All of the weight is carried from ``hold`` 1 on.
+        """
+        back = self.kappa(settings)[:, None] * (self.model.rest_positions - positions)
+        return back + min(settings.hold, 1.0) * settings.gravity * self._support
+
+    def curvature_force(
+        self, positions: Floats, velocities: Floats, directions: Floats, settings: DynamicsSettings, dt: float
+    ) -> Floats:
+        """Force that restores the curvature of the initial shape [N], (n, 3).
+
+        positions [m], velocities [m/s] and unit directions, head frame, (n, 3). dt: the step to come [s]; hair too stiff
+        for an explicit step is taken as stiff as it can be.
+        """
+        rigidity = settings.stiffness * self._rigidity
+        rigidity = self.model.mass * rigidity / (1.0 + settings.stiffness * self._fastest * dt * dt)
+        rest = turned_along(self._rest_turn, self.model.rest_directions, directions)
+        excess = self._turn @ (positions + _RELAXATION * velocities) - rest
+        return -(self._turn_back @ (rigidity[:, None] * excess))
+
+
+def _turning(model: HairModel) -> tuple[sparse.csr_array, Floats]:
+    """The matrix from positions to how far hair turns at every particle [rad], and over what distance [m], (n,).
+
+    A row is empty where there is nothing on one side: at root particles and at tips.
+    """
+    rootward, tipward = model.links.T
+    h = model.smoothing_length_links
+    # A link that reaches further than 2 h_1 may be all that a particle has.
+    weight = model.strength * np.maximum(kernel(model.rest_length, h), 1e-6 * kernel(np.zeros(1), h))
+    shape = (model.count, model.count)
+    before = _mean_of(tipward, rootward, weight, shape)
+    after = _mean_of(rootward, tipward, weight, shape)
+    whole = ((abs(before).sum(axis=1) > 0) & (abs(after).sum(axis=1) > 0) & ~model.fixed).astype(float)
+    one = sparse.eye_array(model.count, format="csr")
+    from_root, to_tip = (one - before) @ model.rest_positions, (after - one) @ model.rest_positions
+    from_root, to_tip = (np.maximum(np.linalg.norm(a, axis=1), 1e-3) for a in (from_root, to_tip))
+    scaled = sparse.diags_array(whole / to_tip) @ (after - one) - sparse.diags_array(whole / from_root) @ (one - before)
+    return scaled.tocsr(), 0.5 * (from_root + to_tip)
+
+
+def _mean_of(at: np.ndarray, of: np.ndarray, weight: Floats, shape: tuple[int, int]) -> sparse.csr_array:
+    """The matrix that takes the weighted mean over the particles ``of`` at the particles ``at``, row by row."""
+    total = np.bincount(at, weight, shape[0])
+    return sparse.csr_array((weight / total[at], (at, of)), shape=shape)
+
+
+def turned_along(vectors: Floats, before: Floats, after: Floats) -> Floats:
+    """``vectors`` turned by the smallest turn that leads from the unit directions ``before`` to ``after``, (n, 3) each."""
+    axis = np.cross(before, after)
+    cosine = np.einsum("ij,ij->i", before, after)
+    once = np.cross(axis, vectors)
+    twice = np.cross(axis, once)
+    # Rodrigues' formula with sin and cos put in; hair that points the other way round turns about any axis.
+    return vectors + once + twice / np.maximum(1.0 + cosine, 1e-3)[:, None]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -59,22 +59,33 @@ class Dynamics:
         if now.outside is not None:
             acceleration += now.outside / self.model.mass[:, None]
         if now.settings.interactions:
+            # Seen from where the step is going, pressure already falls as hair gives way, and does not overshoot.
+            ahead = replace(state, positions=state.positions + dt * state.velocities)
             with self.timer.stage("neighbours"):
-                pairs = self.neighbours.pairs(state.positions)
+                pairs = self.neighbours.pairs(ahead.positions)
             with self.timer.stage("interactions"):
-                force, _ = hair_hair_forces(self.model, now.settings, state, pairs, dt)
+                force, _ = hair_hair_forces(self.model, now.settings, ahead, pairs, dt)
                 acceleration += force / self.model.mass[:, None]
         return acceleration
 
     def inner_acceleration(
-        self, settings: DynamicsSettings, frame: HeadFrame, positions: Floats, velocities: Floats
+        self,
+        settings: DynamicsSettings,
+        frame: HeadFrame,
+        positions: Floats,
+        velocities: Floats,
+        directions: Floats,
+        dt: float,
     ) -> Floats:
         """What a single hair feels besides its springs and still air [m/s^2], (n, 3): gravity, inertia and bending.
 
-        positions [m] and velocities [m/s]: (n, 3).
+        positions [m], velocities [m/s] and unit directions: (n, 3). dt: the step to come [s].
         """
-        apparent = apparent_acceleration(frame, positions, velocities, settings.gravity)
-        return apparent + self.bending.acceleration(positions, settings)
+        acceleration = apparent_acceleration(frame, positions, velocities, settings.gravity)
+        with self.timer.stage("bending"):
+            acceleration += self.bending.place(positions, settings)
+            force = self.bending.curvature_force(positions, velocities, directions, settings, dt)
+            return acceleration + force / self.model.mass[:, None]
 
     def touch(self, positions: Floats, frame: HeadFrame) -> Touching:
         """Where the body is, seen from every particle."""

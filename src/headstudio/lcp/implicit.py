@@ -69,7 +69,7 @@ class ImplicitSolver:
 
         ahead = x_hat + g * v
         links = dynamics.links(ahead, settings)
-        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v))
+        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v, state.directions, dt))
         force += dynamics.springs.forces(links, v, settings)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         with dynamics.timer.stage("solve"):
@@ -95,7 +95,8 @@ class ImplicitSolver:
         x, v = state.positions, state.velocities
         touch = dynamics.touch(x, frame)
         springs = dynamics.springs.forces(dynamics.links(x, settings), v, settings)
-        acceleration = outer + dynamics.inner_acceleration(settings, frame, x, v) - settings.air_friction * v
+        acceleration = outer - settings.air_friction * v
+        acceleration += dynamics.inner_acceleration(settings, frame, x, v, state.directions, dt)
         acceleration += springs / dynamics.model.mass[:, None]
         held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
         acceleration = (held - v) / dt

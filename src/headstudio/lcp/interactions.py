@@ -15,6 +15,7 @@ _COLLISION_RATE = 40.0
 # which the density has doubled, and pairs much closer than the mean distance repel each other as it grows.
 _COHESION = 0.1
 _ANTI_CLUMPING = 0.3
+_SHORTEST_WAVE = 2.5  # wave number that the kernel still resolves, times h
 # |t_i x t_j| below which two hairs count as parallel.
 _PARALLEL = 0.1
 
@@ -54,8 +55,8 @@ def _pressure(
     """Eq. 16 along x_ij: the force on i, positive toward j [N], per pair. P = k_a (rho - rho_0)."""
     h, mass = model.smoothing_length, model.mass
     rest = settings.rest_density * model.rest_density
-    # Sound of speed sqrt(k_a) must not cross more than a smoothing length in a step.
-    gain = settings.pressure / (1.0 + settings.pressure * (dt / h) ** 2)
+    # Sound of speed sqrt(k_a) must not swing through a wave as short as the kernel shows in a step.
+    gain = settings.pressure / (1.0 + settings.pressure * (_SHORTEST_WAVE * dt / h) ** 2)
     pressure = gain * np.maximum(density - rest, -_COHESION * rest)
     over_square: Floats = pressure / density**2
     both = over_square[i] + over_square[j]
@@ -112,5 +113,7 @@ def _dot(a: Floats, b: Floats) -> Floats:
 
 
 def _gather(at_i: Floats, at_j: Floats, i: Ints, j: Ints, count: int) -> Floats:
-    gathered: Floats = np.bincount(i, at_i, count) + np.bincount(j, at_j, count)
+    gathered = np.zeros(count)
+    gathered += np.bincount(i, at_i, count)
+    gathered += np.bincount(j, at_j, count)
     return gathered

@@ -39,7 +39,7 @@ class LeapfrogSolver:
         mass = dynamics.model.mass[:, None]
         touch = dynamics.touch(x, frame)
         acceleration = dynamics.outer_acceleration(state, now, dt)
-        acceleration += dynamics.inner_acceleration(settings, frame, x, v)
+        acceleration += dynamics.inner_acceleration(settings, frame, x, v, state.directions, dt)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)

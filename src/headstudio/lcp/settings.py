@@ -80,6 +80,15 @@ class DynamicsSettings:
         "How firmly hair keeps the shape it grew in, from the root outward: 0 is free, 1 its own stiffness, 20 hairspray.",
         live=True,
     )
+    stiffness: float = number(
+        1.0,
+        "Bending stiffness",
+        "",
+        0.0,
+        10.0,
+        "How firmly hair keeps its curvature, as a multiple of the beam that gave it its shape: 0 folds like cloth.",
+        live=True,
+    )
     spring_damping: float = number(
         2.0, "Spring damping", "", 0.0, 5.0, "Damping of the springs as a fraction of critical.", live=True
     )
