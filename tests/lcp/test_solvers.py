@@ -21,7 +21,13 @@ from .dome import CENTRE, RADIUS, hanging_chain, no_body
 
 STILL = HeadFrame()
 GENTLE = DynamicsSettings(
-    elastic_modulus=1e4, bending_scale=1.0, hold=0.0, spring_damping=1.0, interactions=False, air_friction=0.5
+    elastic_modulus=1e4,
+    bending_scale=1.0,
+    hold=0.0,
+    stiffness=0.0,
+    spring_damping=1.0,
+    air_friction=0.5,
+    interactions=False,
 )
 SHAKE = about_axis(YAW, swing(math.radians(60), 4.0))  # as far and as fast as the motion's sliders go
 

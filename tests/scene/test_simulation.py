@@ -126,7 +126,8 @@ def test_hair_goes_along_when_the_head_is_put_elsewhere(simulation, elsewhere):
     play(simulation, still, 0.5)
     before = simulation.state.positions
     play(simulation, lambda time: elsewhere, 1 / 60)
-    assert np.abs(simulation.state.positions - before).max() < 0.01
+    # Only where the torso is now is hair pushed away.
+    assert np.median(np.linalg.norm(simulation.state.positions - before, axis=1)) < 0.003
     assert any("jump" in note for note in simulation.notes)
     play(simulation, lambda time: elsewhere, 0.3)
     assert len(simulation.notes) == 1
