@@ -74,3 +74,13 @@ def test_a_cancelled_build_ends_at_its_next_part_and_is_never_seen():
     assert slow.finish() is None
     slow.builds.request(THREE)
     assert slow.finish().result == 300
+
+
+def test_closing_waits_for_the_thread():
+    slow = Slow()
+    slow.builds.request(ONE)
+    slow.builds.close(patience=0.01)
+    slow.go_on.set()
+    slow.builds.close()
+    assert not any(thread.name == "build" and thread.is_alive() for thread in threading.enumerate())
+    assert slow.asked == [ONE]

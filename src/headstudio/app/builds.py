@@ -46,6 +46,7 @@ class Builds(Generic[ResultT]):
         self._build = build
         self._running: _Job[ResultT] | None = None
         self._next: Document | None = None
+        self._thread: threading.Thread | None = None
 
     @property
     def wanted(self) -> Document | None:
@@ -84,6 +85,12 @@ class Builds(Generic[ResultT]):
         if self._running is not None:
             self._running.unwanted = True
 
+    def close(self, patience: float = 10.0) -> None:
+        """Want nothing any more, and wait up to ``patience`` seconds for the running build to notice."""
+        self.cancel()
+        if self._thread is not None:
+            self._thread.join(patience)
+
     def poll(self) -> Finished[ResultT] | None:
         """The build that has just ended, if it is still wanted. Call once a frame."""
         job = self._running
@@ -98,8 +105,9 @@ class Builds(Generic[ResultT]):
             return
         job: _Job[ResultT] = _Job(self._next, time.perf_counter())
         self._running, self._next = job, None
-        # A daemon: closing the window does not wait for hair that nobody will see.
-        threading.Thread(target=self._work, args=(job,), name="build", daemon=True).start()
+        # A daemon: the program does not wait for ever for hair that nobody will see.
+        self._thread = threading.Thread(target=self._work, args=(job,), name="build", daemon=True)
+        self._thread.start()
 
     def _work(self, job: _Job[ResultT]) -> None:
         try:

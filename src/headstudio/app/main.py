@@ -38,3 +38,4 @@ def main(project: str | None = None, changes: Mapping[str, Any] = NOTHING) -> No
         raise
     finally:
         window.close()
+        studio.builds.close()
