@@ -47,7 +47,7 @@ def beam_angles(
         diagonal += np.minimum(load * np.sin(angle), 0.0)
         change = np.clip(_solve_unit_tridiagonal(diagonal, -residual), -_LARGEST_TURN, _LARGEST_TURN)
         angle = angle + change
-        if np.max(np.abs(change)) < 1e-12:
+        if np.max(np.abs(change), initial=0.0) < 1e-12:
             break
     return angle
 

@@ -75,8 +75,7 @@ def put_back(model: HairModel, positions: Floats, touch: Touching) -> Floats:
     None is deeper than ``_DEEPEST`` below its plane, then none further from its root than ``_LAST_REACH`` times its length.
     """
     excess = np.maximum(np.minimum(touch.keep, 0.0) - _DEEPEST - touch.distance, 0.0)
-    positions = positions + excess[:, None] * touch.normals
-    from_root = positions - model.root_points
+    from_root = positions + excess[:, None] * touch.normals - model.root_points
     reach = np.sqrt(np.einsum("ij,ij->i", from_root, from_root))
     share = np.minimum(1.0, _LAST_REACH * model.arc_length / np.maximum(reach, 1e-12))
     return np.where(model.fixed[:, None], positions, model.root_points + share[:, None] * from_root)

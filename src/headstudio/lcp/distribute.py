@@ -11,6 +11,7 @@ from ..head.scalp import Scalp
 _CANDIDATES_PER_PARTICLE = 14
 _RADIUS_SEARCH_STEPS = 14
 _COUNT_TOLERANCE = 0.01
+_FEWEST_ROOTS = 8
 
 
 def distribute(scalp: Scalp, longest: float, root_depth: float, count: int, rng: np.random.Generator) -> Floats:
@@ -34,7 +35,18 @@ def distribute(scalp: Scalp, longest: float, root_depth: float, count: int, rng:
             high = radius
         radius = 0.5 * (low + high) if np.isfinite(high) else radius * 1.15
     # What is over the wanted count goes at random: it is under a hundredth, and leaves no visible hole.
-    return candidates[np.sort(rng.permutation(best)[:count])]
+    return _rooted(candidates[np.sort(rng.permutation(best)[:count])], root_depth)
+
+
+def _rooted(coordinates: Floats, root_depth: float) -> Floats:
+    """``coordinates`` with at least a few below the scalp: where a thin layer caught none, the lowest are put there."""
+    lacking = _FEWEST_ROOTS - np.count_nonzero(coordinates[:, 2] < 0)
+    if lacking <= 0:
+        return coordinates
+    above = np.flatnonzero(coordinates[:, 2] >= 0)
+    lowest = above[np.argsort(coordinates[above, 2], kind="stable")[:lacking]]
+    coordinates[lowest, 2] = -0.5 * root_depth
+    return coordinates
 
 
 def poisson_discs(points: Floats, radius: float) -> Ints:

@@ -8,8 +8,10 @@ import numpy as np
 
 from .dynamics import Circumstances, Dynamics
 from .model import HairState
+from .settings import DynamicsSettings
 
-_STEP_OF_LIMIT = 0.25
+_STEP_OF_LIMIT = 0.4
+_LONGEST_STEP = 2e-3  # for contact and inertia, where springs are weak [s]
 
 
 class LeapfrogSolver:
@@ -18,17 +20,22 @@ class LeapfrogSolver:
     def __init__(self, dynamics: Dynamics) -> None:
         self.dynamics = dynamics
 
-    def stable_step(self, elastic_modulus: float) -> float:
-        """A step [s] well below the period of the fastest spring, from the stiffness that meets at one particle at rest."""
+    def stable_step(self, settings: DynamicsSettings) -> float:
+        """A step [s] well within the limit of the springs, by the stiffness and damping that meet at one particle at rest.
+
+        An oscillation of frequency w with the damping rate d stays bounded while d h + w^2 h^2 / 2 < 2.
+        """
         model, springs = self.dynamics.model, self.dynamics.springs
-        stiffness = springs.at(model.rest_positions, elastic_modulus).stiffness[:, None]
-        around = springs.sum_at_ends(stiffness, stiffness)[:, 0]
-        fastest = math.sqrt(float(np.max(2.0 * around / model.mass)))
-        return _STEP_OF_LIMIT * 2.0 / fastest
+        stiffness = springs.at(model.rest_positions, settings.elastic_modulus).stiffness
+        damping = springs.damping(stiffness, settings.spring_damping)
+        both = np.column_stack([stiffness, damping])
+        square, rate = (2.0 * springs.sum_at_ends(both, both) / model.mass[:, None]).T
+        limit = 4.0 / (rate + np.sqrt(rate * rate + 4.0 * square) + 1e-9)
+        return _STEP_OF_LIMIT * float(np.min(limit, initial=_LONGEST_STEP))
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper, done in small parts."""
-        parts = max(1, math.ceil(dt / self.stable_step(now.settings.elastic_modulus)))
+        parts = max(1, math.ceil(dt / self.stable_step(now.settings)))
         for _ in range(parts):
             state = self._small_step(state, now, dt / parts)
         return state

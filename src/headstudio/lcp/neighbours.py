@@ -62,19 +62,26 @@ class NeighbourList:
         self.questions = 0
         self._pairs: Ints | None = None
         self._searched_at: Floats = np.zeros((0, 3))
+        self._searched_skin = 0.0
+        self._asked_at: Floats | None = None
 
     def pairs(self, positions: Floats) -> Ints:
         """Every pair closer than the radius, each once, and some that are farther, (p, 2). positions: [m], (n, 3)."""
         self.questions += 1
-        if self._pairs is None or not self._still_good(positions):
-            self._pairs = find_pairs(positions, self.radius + self.skin)
+        if self._pairs is None or _approach(self._searched_at, positions) > self._searched_skin:
+            # A skin that hair leaves behind in a single step only makes the list longer.
+            hasty = self._asked_at is not None and _approach(self._asked_at, positions) > self.skin
+            self._searched_skin = 0.0 if hasty else self.skin
+            self._pairs = find_pairs(positions, self.radius + self._searched_skin)
             self._searched_at = positions.copy()
             self.searches += 1
+        self._asked_at = positions
         return self._pairs
 
-    def _still_good(self, positions: Floats) -> bool:
-        """Whether no two particles can have come closer by the skin since the last search."""
-        moved = positions - self._searched_at
-        # What all particles do together changes no distance.
-        moved = moved - moved.mean(axis=0)
-        return bool(np.max(np.einsum("ij,ij->i", moved, moved)) <= (0.5 * self.skin) ** 2)
+
+def _approach(before: Floats, now: Floats) -> float:
+    """How much closer any two particles can have come at most [m]."""
+    moved = now - before
+    # What all particles do together changes no distance.
+    moved = moved - moved.mean(axis=0)
+    return 2.0 * float(np.sqrt(np.max(np.einsum("ij,ij->i", moved, moved), initial=0.0)))

@@ -33,7 +33,7 @@ def hair_figures(model: HairModel, state: HairState) -> dict[str, float]:
         "reach_max": float(reach(model, state.positions).max(initial=0.0)),
         "min_pair_distance": float(apart.min(initial=2.0 * model.smoothing_length)),
         "close_pairs": float(np.count_nonzero(apart < model.spacing / 3.0)),
-        "density_variance": float(np.var(relative[~model.fixed])),
+        "density_variance": float(np.var(relative[~model.fixed])) if not model.fixed.all() else 0.0,
     }
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -21,6 +20,7 @@ from ..lcp.wind import AirState, Wind
 from .builder import Built
 from .document import Document
 from .measures import contact_figures, hair_figures, head_figures, parting_figures
+from .motion import Motion
 from .overlays import overlays_of
 from .stage import HairOnStage, Stage
 
@@ -34,8 +34,6 @@ _LONGEST_FRAME = 0.25  # what a single frame may ask for [s]; a longer hiccup is
 _SNAPSHOT_EVERY = 0.5  # [s]
 _TOP_SPEED = 60.0  # hair faster than this has exploded [m/s]
 _JUMP = 0.05, math.radians(20)  # what the head may move beyond its velocity in a step before it counts as put elsewhere
-
-Motion = Callable[[float], HeadFrame]
 
 
 @dataclass
@@ -116,6 +114,10 @@ class Simulation:
     def step(self, motion: Motion, dt: float) -> None:
         """One internal step of dt [s]: air, hair, and a look at whether the result can be right."""
         frame = motion(self.state.time + dt)
+        if not _is_finite(frame):
+            self.notes.append("the motion gave no place for the head; it stays where it was")
+            frame = HeadFrame(self.frame.rotation, self.frame.translation)
+            motion = _staying(frame)
         self._follow_script()
         state = self._after_jump(self.state, frame, dt)
         air, outside = self._outside_forces(state, frame, dt)
@@ -221,6 +223,17 @@ class Simulation:
         given = float(np.linalg.norm(self.air_to_hair))
         lost = float(np.linalg.norm(self.air_to_hair + self.hair_to_air))
         return {"air_particles": float(len(self.air.positions)), "air_impulse": given, "air_imbalance": lost}
+
+
+def _is_finite(frame: HeadFrame) -> bool:
+    """Whether a frame says where the head is and how it moves."""
+    parts = (frame.translation, frame.velocity, frame.acceleration, frame.angular_velocity, frame.angular_acceleration)
+    return bool(np.all(np.isfinite(np.concatenate([frame.rotation.as_quat(), *parts]))))
+
+
+def _staying(frame: HeadFrame) -> Motion:
+    """A head that keeps still at ``frame``."""
+    return lambda time: frame
 
 
 def _is_sound(state: HairState) -> bool:
