@@ -116,7 +116,6 @@ def test_what_is_too_deep_is_put_back_to_the_surface():
     np.testing.assert_allclose(moved[2], 0, atol=1e-12)
 
 
-@pytest.mark.xfail(strict=True, reason="put_back lifts all particles and only then asks which of them are fixed")
 def test_root_particles_are_not_lifted():
     chain = hanging_chain(2)
     touch = Touching(np.full(2, -0.05), np.repeat(UP, 2, axis=0), np.zeros((2, 3)), np.zeros(2))

@@ -86,7 +86,6 @@ def test_the_reference_is_the_solution(chain):
     assert chain.error(LeapfrogSolver, 60) < 2e-5
 
 
-@pytest.mark.xfail(strict=True, reason="stable_step knows stiffness but not damping; explicit damping has a limit, too")
 @pytest.mark.parametrize(
     "damping", [DynamicsSettings().spring_damping, parameters_of(DynamicsSettings)["spring_damping"].high]
 )

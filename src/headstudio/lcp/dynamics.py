@@ -50,8 +50,13 @@ class Dynamics:
         self.body = body
         self.springs = Springs(model)
         self.bending = Bending(model)
-        self.neighbours = NeighbourList(2.0 * model.smoothing_length)
         self.timer = Timer()
+        self.forget()
+
+    def forget(self) -> None:
+        """Start over: what is still known of earlier positions would change the order of sums, and so their last bit."""
+        self.neighbours = NeighbourList(2.0 * self.model.smoothing_length)
+        self.timer.take()
 
     def outer_acceleration(self, state: HairState, now: Circumstances, dt: float) -> Floats:
         """What hair and the outside do to hair [m/s^2], (n, 3): forces that change little within dt, a step [s]."""

@@ -19,7 +19,7 @@ from .settings import HairSettings
 # Of the mean distance to the nearest neighbours: h_1 "a little larger", h_2 "a little smaller" than it.
 _LINK_SMOOTHING = 1.4
 # Particles whose roots are this many mean distances apart still share strands.
-_SAME_STRANDS = 1.5
+_SAME_STRANDS = 1.1
 _HAIR_SMOOTHING = 0.9
 _NEAREST = 6
 _BEAM_JOINTS = 64

@@ -80,7 +80,7 @@ class Simulation:
         self._owed = 0.0
         self._saved = _Snapshot(self.state, self.air)
         self.air_to_hair = self.hair_to_air = np.zeros(3)
-        self.dynamics.timer.take()
+        self.dynamics.forget()
 
     def retune(self, document: Document) -> None:
         """Take over the parameters that a running simulation can take. The hair itself stays as it was built."""
