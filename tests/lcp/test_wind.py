@@ -64,7 +64,6 @@ def test_air_is_slower_behind_the_hair_than_in_front(storm, hair):
     assert speed[behind].mean() < 0.8 * speed[front].mean()
 
 
-@pytest.mark.xfail(strict=True, reason="air covers more than the reach of the contact planes in a step")
 def test_air_does_not_blow_through_the_head(storm):
     """Deep in the head there is next to no air, compared with the shell around it."""
     _, states, _ = storm
@@ -78,9 +77,6 @@ def test_air_does_not_blow_through_the_head(storm):
     assert inside < 0.1 * around
 
 
-@pytest.mark.xfail(
-    strict=True, reason="layers of air enter on top of each other and push back: 5.6 m/s leave, -1 m/s enter"
-)
 def test_wind_that_meets_nothing_blows_evenly(hair):
     """The speed far away is the speed everywhere, in and out of the box."""
     wind = Wind(hair, no_body(), seed=1)

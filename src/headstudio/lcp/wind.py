@@ -8,9 +8,10 @@ meet: the hair is blown, and the air is slowed down by the same amount.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..head.frame import HeadFrame
@@ -21,22 +22,33 @@ from .model import HairModel
 from .neighbours import find_pairs
 from .settings import WindSettings
 
+Bools = NDArray[np.bool_]
+
 AIR_DENSITY = 1.2  # [kg/m^3]
 _SPACING = 0.045  # of air particles [m]
 _SMOOTHING = 1.1  # smoothing length of air, in spacings
 _MARGIN = 0.12  # of the box around the hair [m]
+_INLET = 0.05  # depth of the layer behind the upwind sides in which air keeps the speed of the wind [m]
+_JITTER = 0.12  # largest shift of fresh air off its lattice, in spacings
+_PERIOD = 16  # lattice points after which the shifts repeat
 _RELAXATION = 3.0  # rate at which free air takes up the speed of the wind again [1/s]
 _SOUND = 6.0  # speed of pressure in the air [m/s]: far below the real one, fast enough that it does not pile up
+_COURANT = 0.6  # smoothing lengths that pressure may travel in one evaluation
+_EVALUATIONS = 2  # of the pressure in a step
+_STRIDE = 0.012  # farthest that air moves before it meets the contact planes again [m]: less than one of their voxels
+_MOST_STRIDES = 32  # in a step; what is faster is held to it
+_GAP = 0.012  # that air keeps from the skin [m]
+_LOST = -0.014  # air deeper in the body than this does not find out again [m]
 _EXCHANGE_RATE = 30.0  # rate at which hair of the default drag takes up the velocity of still dense air [1/s]
 
 
 @dataclass(frozen=True, eq=False)
 class AirState:
-    """Particles of air in the world: positions [m] and velocities [m/s], (k, 3), and how far the wind has blown [m]."""
+    """Particles of air in the world: positions [m] and velocities [m/s], (k, 3), and how far the wind has blown [m], (3,)."""
 
     positions: Floats
     velocities: Floats
-    blown: float = 0.0
+    blown: Floats = field(default_factory=lambda: np.zeros(3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,18 +60,24 @@ class Exchange:
 
 
 class Wind:
-    """The air around one head of hair. The box stands still in the world; its floor lies below the longest hair."""
+    """The air around one head of hair. The box stands still in the world; its floor lies below the longest hair.
+
+    Far away the air is a lattice, a little disturbed, that moves with the wind as a whole. Its points become particles
+    as they come into the box, so a free stream has the same density and speed everywhere, whatever the heading.
+    """
 
     def __init__(self, model: HairModel, body: Body, seed: int = 0) -> None:
         self.model = model
         self.body = body
-        self._rng = np.random.default_rng(seed)
         reach = np.ptp(model.arc_length) * 0.5 + _MARGIN
         low, high = model.rest_positions.min(axis=0), model.rest_positions.max(axis=0)
         self.centre = 0.5 * (low + high)
         self.half = np.maximum(0.5 * (high - low) + _MARGIN, 0.6 * reach)
         self.mass = AIR_DENSITY * _SPACING**3
         self.smoothing_length = _SMOOTHING * _SPACING
+        # Drawn once and looked up by lattice point: a run that is repeated meets the same air.
+        largest = _JITTER * _SPACING
+        self._shifts = np.random.default_rng(seed).uniform(-largest, largest, (_PERIOD, _PERIOD, _PERIOD, 3))
 
     def still_air(self) -> AirState:
         """An empty box, before the wind has arrived."""
@@ -75,47 +93,64 @@ class Wind:
         time: float,
         dt: float,
     ) -> tuple[AirState, Exchange]:
-        """The air one step of dt [s] later, and the momentum exchanged. Hair in the world: [m], [m/s], (n, 3)."""
+        """The air one step of dt [s] later, and the momentum exchanged. Hair in the world: [m], [m/s], (n, 3).
+
+        Air that is no longer finite leaves the box; hair that is not is answered with momentum that is not.
+        """
         direction = np.array([math.sin(settings.heading), 0.0, math.cos(settings.heading)])
-        speed = settings.speed * (1.0 + settings.gusts * _gust(time))
-        wind = speed * direction
-        positions, velocities = self._enter(air, direction, wind, speed * dt)
-        velocities = velocities + dt * self._acceleration(positions, velocities, wind)
-        exchange = self.exchange(positions, velocities, hair_positions, hair_velocities, settings.drag, dt)
-        velocities = velocities + exchange.air / self.mass
-        velocities = self._stop_at_body(positions, velocities, frame)
-        positions = positions + dt * velocities
-        inside = np.all(np.abs(positions - self.centre) <= self.half + _SPACING, axis=1)
-        blown = air.blown + speed * dt
-        blown -= _SPACING * math.floor(blown / _SPACING)
-        return AirState(positions[inside], velocities[inside], blown), exchange
+        wind = settings.speed * (1.0 + settings.gusts * _gust(time)) * direction
+        with np.errstate(invalid="ignore", over="ignore"):
+            exchange = self.exchange(air.positions, air.velocities, hair_positions, hair_velocities, settings.drag, dt)
+            velocities = air.velocities + exchange.air / self.mass
+            driven = self._is_in_box(air.positions - _INLET * direction)
+            velocities = np.where(driven[:, None], velocities, wind)
+            positions, velocities = self._move(air.positions, velocities, driven, wind, frame, dt)
+            blown = air.blown + wind * dt
+            fresh = self._entering(blown, wind * dt)
+            positions = np.concatenate([positions, fresh])
+            velocities = np.concatenate([velocities, np.broadcast_to(wind, fresh.shape)])
+            kept = self._is_in_box(positions) & np.all(np.isfinite(velocities), axis=1)
+            kept &= self._plane(positions, frame)[0] > _LOST
+        return AirState(positions[kept], velocities[kept], blown), exchange
 
-    def _enter(self, air: AirState, direction: Floats, wind: Floats, advance: float) -> tuple[Floats, Floats]:
-        """The air with the layers that the wind has brought to the upwind side since the last step."""
-        layers = math.floor((air.blown + advance) / _SPACING)
-        if layers == 0:
-            return air.positions, air.velocities
-        sideways = np.array([direction[2], 0.0, -direction[0]])
-        depth = float(np.abs(direction) @ self.half)
-        width = float(np.abs(sideways) @ self.half)
-        across = np.arange(-width, width + 1e-9, _SPACING)
-        up = np.arange(-self.half[1], self.half[1] + 1e-9, _SPACING)
-        a, b, c = (part.ravel() for part in np.meshgrid(across, up, np.arange(layers), indexing="ij"))
-        fresh = (
-            self.centre
-            + a[:, None] * sideways
-            + b[:, None] * np.array([0.0, 1.0, 0.0])
-            + (c * _SPACING - depth)[:, None] * direction
-        )
-        fresh = fresh + self._rng.uniform(-0.25 * _SPACING, 0.25 * _SPACING, fresh.shape)
-        fresh = fresh[np.all(np.abs(fresh - self.centre) <= self.half + _SPACING, axis=1)]
-        return (
-            np.concatenate([air.positions, fresh]),
-            np.concatenate([air.velocities, np.broadcast_to(wind, fresh.shape)]),
-        )
+    def _is_in_box(self, positions: Floats) -> Bools:
+        inside: Bools = np.all(np.abs(positions - self.centre) <= self.half, axis=1)
+        return inside
 
-    def _acceleration(self, positions: Floats, velocities: Floats, wind: Floats) -> Floats:
-        """Pressure of the air (eq. 16 for a gas) and the wind that drives it on [m/s^2], (k, 3)."""
+    def _entering(self, blown: Floats, advance: Floats) -> Floats:
+        """Points of the lattice that came into the box while it moved by ``advance`` to ``blown`` [m], (k, 3)."""
+        if not np.any(advance):
+            return np.zeros((0, 3))
+        first = np.floor((self.centre - self.half - blown) / _SPACING - _JITTER).astype(np.int64)
+        last = np.ceil((self.centre + self.half - blown) / _SPACING + _JITTER).astype(np.int64)
+        ranges = (np.arange(a, b + 1) for a, b in zip(first, last, strict=True))
+        point = np.stack(np.meshgrid(*ranges, indexing="ij"), axis=-1).reshape(-1, 3)
+        place = point * _SPACING + self._shifts[tuple((point % _PERIOD).T)] + blown
+        return place[self._is_in_box(place) & ~self._is_in_box(place - advance)]
+
+    def _move(
+        self, positions: Floats, velocities: Floats, driven: Bools, wind: Floats, frame: HeadFrame, dt: float
+    ) -> tuple[Floats, Floats]:
+        """Positions [m] and velocities [m/s] after dt, in strides that no contact plane is too thin for.
+
+        driven: the air that feels pressure; the rest keeps the speed of the wind.
+        """
+        fastest = np.max(np.linalg.norm(velocities, axis=1), initial=0.0)
+        strides = math.ceil(min(max(fastest * dt / _STRIDE, _EVALUATIONS), _MOST_STRIDES))
+        part = dt / strides
+        top_speed = _MOST_STRIDES * _STRIDE / dt
+        evaluations = {round(k * strides / _EVALUATIONS) for k in range(_EVALUATIONS)}
+        for stride in range(strides):
+            if stride in evaluations:
+                push = dt / _EVALUATIONS * self._acceleration(positions, velocities, wind, dt / _EVALUATIONS)
+                velocities = velocities + np.where(driven[:, None], push, 0.0)
+                speed = np.linalg.norm(velocities, axis=1, keepdims=True)
+                velocities = velocities * np.minimum(1.0, top_speed / np.maximum(speed, 1e-9))
+            positions, velocities = self._slide(positions, velocities, frame, part)
+        return positions, velocities
+
+    def _acceleration(self, positions: Floats, velocities: Floats, wind: Floats, dt: float) -> Floats:
+        """Pressure of the air (eq. 16 for a gas) and the wind that drives it on [m/s^2], (k, 3), to act for dt [s]."""
         acceleration = _RELAXATION * (wind - velocities)
         h = self.smoothing_length
         pairs = find_pairs(positions, 2.0 * h)
@@ -123,18 +158,40 @@ class Wind:
             return acceleration
         i, j = pairs.T
         x = positions[j] - positions[i]
-        distance = np.linalg.norm(x, axis=1)
+        distance = np.sqrt(np.einsum("ij,ij->i", x, x))
         count = len(positions)
         weight = kernel(distance, h)
         own = kernel(np.zeros(1), h)
         density = self.mass * (own + np.bincount(i, weight, count) + np.bincount(j, weight, count))
         # Only crowding pushes: the edges of the box are no vacuum that would suck the air out.
-        over_square = _SOUND**2 * np.maximum(density - AIR_DENSITY, 0.0) / density**2
+        sound = min(_SOUND, _COURANT * h / dt)
+        over_square = sound**2 * np.maximum(density - AIR_DENSITY, 0.0) / density**2
+        both = over_square[i] + over_square[j]
+        crowded = both > 0.0
+        i, j, x, distance, both = i[crowded], j[crowded], x[crowded], distance[crowded], both[crowded]
         slope = kernel_slope(distance, h) / np.maximum(distance, 1e-9)
-        push = (self.mass * (over_square[i] + over_square[j]) * slope)[:, None] * x
+        push = (self.mass * both * slope)[:, None] * x
         for axis in range(3):
             acceleration[:, axis] += np.bincount(i, push[:, axis], count) - np.bincount(j, push[:, axis], count)
         return acceleration
+
+    def _slide(self, positions: Floats, velocities: Floats, frame: HeadFrame, dt: float) -> tuple[Floats, Floats]:
+        """One stride: air flows around the body and does not blow through it; what the body has run into gives way."""
+        distance, normals = self._plane(positions, frame)
+        near = np.flatnonzero(distance < _GAP + 2.0 * _STRIDE)
+        ahead, n = distance[near] - _GAP, normals[near]
+        approach = np.einsum("ij,ij->i", velocities[near], n)
+        slowest = -np.maximum(ahead, 0.0) / dt
+        velocities = velocities.copy()
+        velocities[near] += np.maximum(slowest - approach, 0.0)[:, None] * n
+        positions = positions + dt * velocities
+        positions[near] += np.maximum(-ahead, 0.0)[:, None] * n
+        return positions, velocities
+
+    def _plane(self, positions: Floats, frame: HeadFrame) -> tuple[Floats, Floats]:
+        """Distance of the nearest contact plane [m], infinite far from the body, (k,), and its normal, (k, 3), in the world."""
+        distance, normals, _ = self.body.planes(frame.to_head(positions), frame)
+        return distance, frame.rotation.apply(normals)
 
     def exchange(
         self, air: Floats, air_velocities: Floats, hair: Floats, hair_velocities: Floats, drag: float, dt: float
@@ -142,14 +199,16 @@ class Wind:
         """Drag between air and hair that are near each other: equal and opposite momentum for each pair.
 
         Positions [m] and velocities [m/s] in the world, (k, 3) and (n, 3). dt: [s]. Pairs relax toward each other; a
-        particle with many neighbours shares itself among them, so that no step can overshoot.
+        particle with many neighbours shares itself among them, so that no step can overshoot. Hair that is not finite is
+        answered with NaN.
         """
         h = self.smoothing_length
-        pairs = _near_pairs(air, hair, 2.0 * h)
-        hair_gain, air_gain = np.zeros_like(hair), np.zeros_like(air)
+        sound = np.all(np.isfinite(hair) & np.isfinite(hair_velocities), axis=1)
+        pairs = _near_pairs(air, hair[sound], 2.0 * h)
+        hair_gain, air_gain = np.where(sound[:, None], np.zeros_like(hair), np.nan), np.zeros_like(air)
         if drag == 0.0 or len(pairs) == 0:
             return Exchange(hair_gain, air_gain)
-        a, b = pairs.T
+        a, b = pairs[:, 0], np.flatnonzero(sound)[pairs[:, 1]]
         weight = kernel(np.linalg.norm(air[a] - hair[b], axis=1), h)
         mass_b = self.model.mass[b]
         # Coefficient of each pair [kg/s]: in air of its normal density hair is slowed at the exchange rate.
@@ -159,17 +218,9 @@ class Wind:
         coefficient = coefficient * dt / (1.0 + dt * (load_a + load_b))
         impulse = coefficient[:, None] * (air_velocities[a] - hair_velocities[b])
         for axis in range(3):
-            hair_gain[:, axis] = np.bincount(b, impulse[:, axis], len(hair))
+            hair_gain[:, axis] += np.bincount(b, impulse[:, axis], len(hair))
             air_gain[:, axis] = -np.bincount(a, impulse[:, axis], len(air))
         return Exchange(hair_gain, air_gain)
-
-    def _stop_at_body(self, positions: Floats, velocities: Floats, frame: HeadFrame) -> Floats:
-        """Air flows around the head and does not blow through it."""
-        distance, normals, _ = self.body.planes(frame.to_head(positions), frame)
-        normals = frame.rotation.apply(normals)
-        near = distance < 0.5 * _SPACING
-        inward = np.minimum(np.einsum("ij,ij->i", velocities, normals), 0.0)
-        return velocities - np.where(near, inward, 0.0)[:, None] * normals
 
 
 def _near_pairs(first: Floats, second: Floats, radius: float) -> Ints:
