@@ -25,18 +25,20 @@ from .settings import WindSettings
 Bools = NDArray[np.bool_]
 
 AIR_DENSITY = 1.2  # [kg/m^3]
-_SPACING = 0.045  # of air particles [m]
-_SMOOTHING = 1.1  # smoothing length of air, in spacings
+_SPACING = 0.05  # of air particles [m]
+_SMOOTHING = 1.0  # smoothing length of the air as a gas, in spacings
+_CONTACT = 0.75  # smoothing length of the drag between air and hair, in spacings: each hair feels some dozen particles
 _MARGIN = 0.12  # of the box around the hair [m]
 _INLET = 0.05  # depth of the layer behind the upwind sides in which air keeps the speed of the wind [m]
-_JITTER = 0.12  # largest shift of fresh air off its lattice, in spacings
+_JITTER = 0.1  # largest shift of fresh air off its lattice, in spacings
 _PERIOD = 16  # lattice points after which the shifts repeat
 _RELAXATION = 3.0  # rate at which free air takes up the speed of the wind again [1/s]
 _SOUND = 6.0  # speed of pressure in the air [m/s]: far below the real one, fast enough that it does not pile up
-_COURANT = 0.6  # smoothing lengths that pressure may travel in one evaluation
+_CROWDED = 1.15  # density from which air pushes, over that of free air: the disturbed lattice itself must not
+_COURANT = 0.8  # smoothing lengths that pressure may travel in one evaluation
 _EVALUATIONS = 2  # of the pressure in a step
-_STRIDE = 0.012  # farthest that air moves before it meets the contact planes again [m]: less than one of their voxels
-_MOST_STRIDES = 32  # in a step; what is faster is held to it
+_STRIDE = 0.02  # farthest that air moves before it meets the contact planes again [m]: they reach 28 mm and more
+_MOST_STRIDES = 24  # in a step; what is faster is held to it
 _GAP = 0.012  # that air keeps from the skin [m]
 _LOST = -0.014  # air deeper in the body than this does not find out again [m]
 _EXCHANGE_RATE = 30.0  # rate at which hair of the default drag takes up the velocity of still dense air [1/s]
@@ -140,20 +142,21 @@ class Wind:
         part = dt / strides
         top_speed = _MOST_STRIDES * _STRIDE / dt
         evaluations = {round(k * strides / _EVALUATIONS) for k in range(_EVALUATIONS)}
+        # Air that comes near other air within the step is seen in the next one.
+        pairs = find_pairs(positions, 2.0 * self.smoothing_length)
         for stride in range(strides):
             if stride in evaluations:
-                push = dt / _EVALUATIONS * self._acceleration(positions, velocities, wind, dt / _EVALUATIONS)
+                push = dt / _EVALUATIONS * self._acceleration(positions, velocities, wind, pairs, dt / _EVALUATIONS)
                 velocities = velocities + np.where(driven[:, None], push, 0.0)
                 speed = np.linalg.norm(velocities, axis=1, keepdims=True)
                 velocities = velocities * np.minimum(1.0, top_speed / np.maximum(speed, 1e-9))
             positions, velocities = self._slide(positions, velocities, frame, part)
         return positions, velocities
 
-    def _acceleration(self, positions: Floats, velocities: Floats, wind: Floats, dt: float) -> Floats:
+    def _acceleration(self, positions: Floats, velocities: Floats, wind: Floats, pairs: Ints, dt: float) -> Floats:
         """Pressure of the air (eq. 16 for a gas) and the wind that drives it on [m/s^2], (k, 3), to act for dt [s]."""
         acceleration = _RELAXATION * (wind - velocities)
         h = self.smoothing_length
-        pairs = find_pairs(positions, 2.0 * h)
         if len(pairs) == 0:
             return acceleration
         i, j = pairs.T
@@ -165,7 +168,7 @@ class Wind:
         density = self.mass * (own + np.bincount(i, weight, count) + np.bincount(j, weight, count))
         # Only crowding pushes: the edges of the box are no vacuum that would suck the air out.
         sound = min(_SOUND, _COURANT * h / dt)
-        over_square = sound**2 * np.maximum(density - AIR_DENSITY, 0.0) / density**2
+        over_square = sound**2 * np.maximum(density - _CROWDED * AIR_DENSITY, 0.0) / density**2
         both = over_square[i] + over_square[j]
         crowded = both > 0.0
         i, j, x, distance, both = i[crowded], j[crowded], x[crowded], distance[crowded], both[crowded]
@@ -202,33 +205,33 @@ class Wind:
         particle with many neighbours shares itself among them, so that no step can overshoot. Hair that is not finite is
         answered with NaN.
         """
-        h = self.smoothing_length
-        sound = np.all(np.isfinite(hair) & np.isfinite(hair_velocities), axis=1)
-        pairs = _near_pairs(air, hair[sound], 2.0 * h)
-        hair_gain, air_gain = np.where(sound[:, None], np.zeros_like(hair), np.nan), np.zeros_like(air)
-        if drag == 0.0 or len(pairs) == 0:
+        sound = np.isfinite(hair).all(axis=1) & np.isfinite(hair_velocities).all(axis=1)
+        hair_gain = np.where(sound[:, None], np.zeros_like(hair), np.nan)
+        air_gain = np.zeros_like(air)
+        a, b, distance = _near_pairs(air, hair[sound], 2.0 * _CONTACT * _SPACING)
+        if drag == 0.0 or len(a) == 0:
             return Exchange(hair_gain, air_gain)
-        a, b = pairs[:, 0], np.flatnonzero(sound)[pairs[:, 1]]
-        weight = kernel(np.linalg.norm(air[a] - hair[b], axis=1), h)
+        b = np.flatnonzero(sound)[b]
+        weight = kernel(distance, _CONTACT * _SPACING)
         mass_b = self.model.mass[b]
         # Coefficient of each pair [kg/s]: in air of its normal density hair is slowed at the exchange rate.
         coefficient = drag * _EXCHANGE_RATE * (self.mass / AIR_DENSITY) * weight * mass_b
-        load_a = np.bincount(a, coefficient, len(air))[a] / self.mass
+        load_a = (np.bincount(a, coefficient, len(air)) / self.mass)[a]
         load_b = np.bincount(b, coefficient, len(hair))[b] / mass_b
         coefficient = coefficient * dt / (1.0 + dt * (load_a + load_b))
-        impulse = coefficient[:, None] * (air_velocities[a] - hair_velocities[b])
         for axis in range(3):
-            hair_gain[:, axis] += np.bincount(b, impulse[:, axis], len(hair))
-            air_gain[:, axis] = -np.bincount(a, impulse[:, axis], len(air))
+            impulse = coefficient * (air_velocities[a, axis] - hair_velocities[b, axis])
+            hair_gain[:, axis] += np.bincount(b, impulse, len(hair))
+            air_gain[:, axis] = -np.bincount(a, impulse, len(air))
         return Exchange(hair_gain, air_gain)
 
 
-def _near_pairs(first: Floats, second: Floats, radius: float) -> Ints:
-    """Pairs (a, b) with first[a] and second[b] closer than ``radius`` [m], (p, 2)."""
+def _near_pairs(first: Floats, second: Floats, radius: float) -> tuple[Ints, Ints, Floats]:
+    """Pairs (a, b) with first[a] and second[b] closer than ``radius`` [m], and their distances [m], (p,) each."""
     if len(first) == 0 or len(second) == 0:
-        return np.zeros((0, 2), dtype=np.int64)
+        return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0)
     found = cKDTree(first).sparse_distance_matrix(cKDTree(second), radius, output_type="ndarray")
-    return np.column_stack([found["i"], found["j"]])
+    return found["i"], found["j"], found["v"]
 
 
 def _gust(time: float) -> float:
