@@ -15,6 +15,7 @@ from .links import connect, lifelines
 from .model import HairModel
 from .neighbours import find_pairs
 from .settings import HairSettings
+from .spread import spread
 
 # Of the mean distance to the nearest neighbours: h_1 "a little larger", h_2 "a little smaller" than it.
 _LINK_SMOOTHING = 1.4
@@ -37,6 +38,7 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
     positions, directions = hang(roots, root_directions, arc_length, length, settings.bending_length, body)
 
     spacing = _mean_distance(positions)
+    positions = spread(positions, directions, arc_length, spacing, body)
     # Hair that falls over other hair lies denser in space than in (u, v, s), where it is the next of its own strands.
     strand_spacing = _mean_distance(np.column_stack([roots, arc_length]))
     link_smoothing, hair_smoothing = _LINK_SMOOTHING * strand_spacing, _HAIR_SMOOTHING * spacing

@@ -11,10 +11,11 @@ from .settings import DynamicsSettings
 
 # Rate at which collision damping at its default stops hair that approaches on all sides [1/s].
 _COLLISION_RATE = 40.0
-# Hair that is pulled together by negative pressure clumps in pairs. So cohesion is bounded, as a part of the pressure at
-# which the density has doubled, and pairs much closer than the mean distance repel each other as it grows.
+# The slope of the kernel is nothing at its middle: particles that come close feel no pressure and stay together, the more
+# so when negative pressure pulls. So cohesion is bounded, as a part of the pressure at which the density has doubled, and
+# pairs nearer than this part of the mean distance repel each other.
 _COHESION = 0.1
-_ANTI_CLUMPING = 0.3
+_ELBOW_ROOM = 0.7
 _SHORTEST_WAVE = 2.5  # wave number that the kernel still resolves, times h
 # |t_i x t_j| below which two hairs count as parallel.
 _PARALLEL = 0.1
@@ -60,11 +61,10 @@ def _pressure(
     pressure = gain * np.maximum(density - rest, -_COHESION * rest)
     over_square: Floats = pressure / density**2
     both = over_square[i] + over_square[j]
-    closeness = kernel(distance, h) / kernel(np.array(model.spacing), h)
-    pulling = np.maximum(-both, 0.0)
-    both += _ANTI_CLUMPING * pulling * closeness**4
     # dW/dx_i = -W' x_ij / |x_ij|, so repulsion (P > 0, W' < 0) points away from j.
-    return mass[i] * mass[j] * both * kernel_slope(distance, h)
+    force: Floats = mass[i] * mass[j] * both * kernel_slope(distance, h)
+    crowded = np.maximum(1.0 - distance / (_ELBOW_ROOM * model.spacing), 0.0)
+    return force - gain / model.spacing * np.minimum(mass[i], mass[j]) * crowded
 
 
 def _contact_drag(

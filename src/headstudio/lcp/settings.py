@@ -100,7 +100,7 @@ class DynamicsSettings:
         True, "Hair-hair interactions", "Attraction, repulsion, collision and friction.", live=True
     )
     pressure: float = number(
-        0.1,
+        0.5,
         "Attraction/repulsion",
         "m^2/s^2",
         0.0,
@@ -114,7 +114,7 @@ class DynamicsSettings:
         "",
         0.2,
         2.0,
-        "Density that the pressure strives for, as a multiple of the initial mean: small repels, large coheres.",
+        "Density that the pressure strives for, as a multiple of the initial one: small repels, large coheres.",
         live=True,
     )
     collision: float = number(

@@ -104,9 +104,11 @@ class Wind:
         with np.errstate(invalid="ignore", over="ignore"):
             exchange = self.exchange(air.positions, air.velocities, hair_positions, hair_velocities, settings.drag, dt)
             velocities = air.velocities + exchange.air / self.mass
-            driven = self._is_in_box(air.positions - _INLET * direction)
-            velocities = np.where(driven[:, None], velocities, wind)
-            positions, velocities = self._move(air.positions, velocities, driven, wind, frame, dt)
+            held = self._is_at_inlet(air.positions, direction)
+            velocities = np.where(held[:, None], wind, velocities)
+            positions, velocities = self._move(air.positions, velocities, ~held, wind, frame, dt)
+            # Nor does what was thrown back into the inlet blow against the wind.
+            velocities = np.where(self._is_at_inlet(positions, direction)[:, None], wind, velocities)
             blown = air.blown + wind * dt
             fresh = self._entering(blown, wind * dt)
             positions = np.concatenate([positions, fresh])
@@ -118,6 +120,10 @@ class Wind:
     def _is_in_box(self, positions: Floats) -> Bools:
         inside: Bools = np.all(np.abs(positions - self.centre) <= self.half, axis=1)
         return inside
+
+    def _is_at_inlet(self, positions: Floats, direction: Floats) -> Bools:
+        """Where air keeps the speed of the wind, as a fan gives it: next to the sides that the wind comes in by."""
+        return ~self._is_in_box(positions - _INLET * direction)
 
     def _entering(self, blown: Floats, advance: Floats) -> Floats:
         """Points of the lattice that came into the box while it moved by ``advance`` to ``blown`` [m], (k, 3)."""
