@@ -38,7 +38,7 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
     positions, directions = hang(roots, root_directions, arc_length, length, settings.bending_length, body)
 
     spacing = _mean_distance(positions)
-    positions = spread(positions, directions, arc_length, spacing, body)
+    positions = spread(positions, directions, roots, arc_length, spacing, body)
     # Hair that falls over other hair lies denser in space than in (u, v, s), where it is the next of its own strands.
     strand_spacing = _mean_distance(np.column_stack([roots, arc_length]))
     link_smoothing, hair_smoothing = _LINK_SMOOTHING * strand_spacing, _HAIR_SMOOTHING * spacing

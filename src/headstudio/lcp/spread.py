@@ -19,10 +19,13 @@ _YIELD = 0.5  # part of the overlap that a round takes away
 _FARTHEST = 0.25  # of its arc length: how far a particle may be moved, so that hair keeps its course
 
 
-def spread(positions: Floats, directions: Floats, arc_length: Floats, spacing: float, body: Body) -> Floats:
-    """``positions`` [m] with room around each, (n, 3). directions: unit, (n, 3). arc_length: [m], (n,), roots below 0.
+def spread(
+    positions: Floats, directions: Floats, roots: Floats, arc_length: Floats, spacing: float, body: Body
+) -> Floats:
+    """``positions`` [m] with room around each, (n, 3). directions: unit, (n, 3). arc_length: [m], (n,), below 0 for roots.
 
-    spacing: mean distance of neighbours [m]. Particles stay out of the body, and near where they were.
+    roots: where each hair leaves the scalp [m], (n, 3). spacing: mean distance of neighbours [m]. Particles stay out of the
+    body, near where they were, and within the length of their hair.
     """
     start, room = positions, _ROOM * spacing
     clearance = np.minimum(body.clearance(start), room)
@@ -34,7 +37,11 @@ def spread(positions: Floats, directions: Floats, arc_length: Floats, spacing: f
         moved = moved + lack[:, None] * normals
         offset = moved - start
         length = np.linalg.norm(offset, axis=1)
-        positions = start + np.minimum(1.0, farthest / np.maximum(length, 1e-12))[:, None] * offset
+        moved = start + np.minimum(1.0, farthest / np.maximum(length, 1e-12))[:, None] * offset
+        from_root = moved - roots
+        reach = np.maximum(np.linalg.norm(from_root, axis=1), 1e-12)
+        within = roots + np.minimum(1.0, arc_length / reach)[:, None] * from_root
+        positions = np.where((arc_length > 0)[:, None], within, start)
     return positions
 
 
