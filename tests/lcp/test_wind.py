@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial import cKDTree
 
 from headstudio.head.frame import HeadFrame
+from headstudio.lcp.kernel import kernel
 from headstudio.lcp.settings import WindSettings
-from headstudio.lcp.wind import Wind
+from headstudio.lcp.wind import AIR_DENSITY, Wind
 
 from .dome import CENTRE, RADIUS, hanging_chain, no_body
 
@@ -77,15 +79,67 @@ def test_air_does_not_blow_through_the_head(storm):
     assert inside < 0.1 * around
 
 
-def test_wind_that_meets_nothing_blows_evenly(hair):
-    """The speed far away is the speed everywhere, in and out of the box."""
+@pytest.mark.parametrize("speed", [0.5, 4.0, 15.0])
+@pytest.mark.parametrize("heading", [math.pi / 2, 0.7, -2.5])
+def test_wind_that_meets_nothing_blows_evenly(hair, speed, heading):
+    """The speed far away is the speed everywhere, in and out of the box, and so is the density."""
     wind = Wind(hair, no_body(), seed=1)
-    states, _ = blow(wind, WindSettings(on=True, gusts=0.0, drag=0.0), hair.rest_positions, np.zeros((hair.count, 3)))
+    downwind = np.array([math.sin(heading), 0.0, math.cos(heading)])
+    depth = np.abs(downwind) @ wind.half
+    tuning = WindSettings(on=True, gusts=0.0, drag=0.0, speed=speed, heading=heading)
+    still = np.zeros((hair.count, 3))
+    states, _ = blow(wind, tuning, hair.rest_positions, still, seconds=2.2 * depth / speed + 10 * DT)
+    air = states[-1]
+    assert air.velocities @ downwind == pytest.approx(speed, rel=0.05)
+    inner = np.all(np.abs(air.positions - wind.centre) < wind.half - 0.1, axis=1)
+    near = cKDTree(air.positions[inner]).sparse_distance_matrix(cKDTree(air.positions), 0.1, output_type="ndarray")
+    density = np.bincount(near["i"], wind.mass * kernel(near["v"], 0.05))
+    assert density.mean() == pytest.approx(AIR_DENSITY, rel=0.03)
+    assert density == pytest.approx(AIR_DENSITY, rel=0.25)
+
+
+def test_gusts_change_the_speed_and_not_the_density(hair):
+    tuning = WindSettings(on=True, gusts=1.0, drag=0.0, speed=10.0)
+    still = np.zeros((hair.count, 3))
+    states, _ = blow(Wind(hair, no_body(), seed=1), tuning, hair.rest_positions, still)
+    full = states[len(states) // 2 :]
+    speeds = [air.velocities[:, 0].mean() for air in full]
+    counts = [len(air.positions) for air in full]
+    assert max(speeds) > 1.5 * min(speeds)
+    assert max(counts) < 1.3 * min(counts)  # layers come and go as a whole
+
+
+def test_air_does_not_blow_back_at_the_inlet(storm):
+    wind, states, _ = storm
     positions, velocities = later(states)
-    place = (positions[:, 0] - wind.centre[0]) / wind.half[0]
-    for part in np.linspace(-1, 0.75, 8):
-        here = (place >= part) & (place < part + 0.25)
-        assert velocities[here, 0].mean() == pytest.approx(STEADY.speed, rel=0.15)
+    at_inlet = positions[:, 0] < wind.centre[0] - wind.half[0] + 0.05
+    np.testing.assert_allclose(velocities[at_inlet, 0], STEADY.speed)
+
+
+def test_air_comes_to_rest_when_the_wind_does(storm, hair):
+    wind, states, _ = storm
+    air, calm = states[-1], WindSettings(on=True, speed=0.0)
+    for k in range(180):
+        air, _ = wind.step(air, calm, HeadFrame(), hair.rest_positions, np.zeros((hair.count, 3)), k * DT, DT)
+    assert len(air.positions) > 0
+    assert np.abs(air.velocities).max() < 0.05
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e200])
+def test_broken_hair_or_head_does_not_break_the_air(storm, hair, wrong):
+    wind, states, _ = storm
+    positions, velocities = hair.rest_positions.copy(), np.zeros((hair.count, 3))
+    positions[7] = wrong
+    velocities[11] = wrong
+    air, exchange = wind.step(states[-1], STEADY, HeadFrame(), positions, velocities, 0.0, DT)
+    assert np.isfinite(air.positions).all()
+    assert np.isfinite(air.velocities).all()
+    if not np.isfinite(wrong):
+        assert not np.isfinite(exchange.hair[[7, 11]]).any()
+        assert np.isfinite(np.delete(exchange.hair, [7, 11], axis=0)).all()
+    nowhere = HeadFrame(translation=np.full(3, wrong), velocity=np.full(3, wrong))
+    air, _ = wind.step(states[-1], STEADY, nowhere, nowhere.to_world(positions), velocities, 0.0, DT)
+    assert np.isfinite(air.positions).all()
 
 
 def test_air_stays_in_its_box(storm):
@@ -110,12 +164,12 @@ def test_without_wind_no_air_enters(hair, ball):
 
 
 def test_same_seed_same_wind(hair, ball):
-    runs = [
-        blow(Wind(hair, ball, seed=5), STEADY, hair.rest_positions, np.zeros_like(hair.rest_positions), 0.3)[0][-1]
-        for _ in range(2)
-    ]
-    np.testing.assert_array_equal(runs[0].positions, runs[1].positions)
-    np.testing.assert_array_equal(runs[0].velocities, runs[1].velocities)
+    winds = [Wind(hair, ball, seed=5)] * 2 + [Wind(hair, ball, seed=5)]  # again with the same one, and with a new one
+    still = np.zeros_like(hair.rest_positions)
+    runs = [blow(wind, STEADY, hair.rest_positions, still, 0.3)[0][-1] for wind in winds]
+    for run in runs[1:]:
+        np.testing.assert_array_equal(runs[0].positions, run.positions)
+        np.testing.assert_array_equal(runs[0].velocities, run.velocities)
 
 
 def test_one_particle_of_air_and_one_of_hair_meet_in_the_middle_at_most():

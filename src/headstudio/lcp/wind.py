@@ -104,16 +104,18 @@ class Wind:
         with np.errstate(invalid="ignore", over="ignore"):
             exchange = self.exchange(air.positions, air.velocities, hair_positions, hair_velocities, settings.drag, dt)
             velocities = air.velocities + exchange.air / self.mass
-            held = self._is_at_inlet(air.positions, direction)
+            sound = np.isfinite(velocities).all(axis=1)
+            positions, velocities = air.positions[sound], velocities[sound]
+            held = self._is_at_inlet(positions, direction)
             velocities = np.where(held[:, None], wind, velocities)
-            positions, velocities = self._move(air.positions, velocities, ~held, wind, frame, dt)
+            positions, velocities = self._move(positions, velocities, ~held, wind, frame, dt)
             # Nor does what was thrown back into the inlet blow against the wind.
             velocities = np.where(self._is_at_inlet(positions, direction)[:, None], wind, velocities)
             blown = air.blown + wind * dt
             fresh = self._entering(blown, wind * dt)
             positions = np.concatenate([positions, fresh])
             velocities = np.concatenate([velocities, np.broadcast_to(wind, fresh.shape)])
-            kept = self._is_in_box(positions) & np.all(np.isfinite(velocities), axis=1)
+            kept = self._is_in_box(positions) & np.isfinite(velocities).all(axis=1)
             kept &= self._plane(positions, frame)[0] > _LOST
         return AirState(positions[kept], velocities[kept], blown), exchange
 
@@ -208,16 +210,13 @@ class Wind:
         """Drag between air and hair that are near each other: equal and opposite momentum for each pair.
 
         Positions [m] and velocities [m/s] in the world, (k, 3) and (n, 3). dt: [s]. Pairs relax toward each other; a
-        particle with many neighbours shares itself among them, so that no step can overshoot. Hair that is not finite is
-        answered with NaN.
+        particle with many neighbours shares itself among them, so that no step can overshoot.
+        Hair at no finite place is answered with NaN.
         """
-        sound = np.isfinite(hair).all(axis=1) & np.isfinite(hair_velocities).all(axis=1)
-        hair_gain = np.where(sound[:, None], np.zeros_like(hair), np.nan)
-        air_gain = np.zeros_like(air)
-        a, b, distance = _near_pairs(air, hair[sound], 2.0 * _CONTACT * _SPACING)
+        hair_gain, air_gain = np.where(np.isfinite(hair), 0.0, np.nan), np.zeros_like(air)
+        a, b, distance = _near_pairs(air, hair, 2.0 * _CONTACT * _SPACING)
         if drag == 0.0 or len(a) == 0:
             return Exchange(hair_gain, air_gain)
-        b = np.flatnonzero(sound)[b]
         weight = kernel(distance, _CONTACT * _SPACING)
         mass_b = self.model.mass[b]
         # Coefficient of each pair [kg/s]: in air of its normal density hair is slowed at the exchange rate.
@@ -234,10 +233,16 @@ class Wind:
 
 def _near_pairs(first: Floats, second: Floats, radius: float) -> tuple[Ints, Ints, Floats]:
     """Pairs (a, b) with first[a] and second[b] closer than ``radius`` [m], and their distances [m], (p,) each."""
-    if len(first) == 0 or len(second) == 0:
-        return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0)
-    found = cKDTree(first).sparse_distance_matrix(cKDTree(second), radius, output_type="ndarray")
-    return found["i"], found["j"], found["v"]
+    none = np.zeros(0, dtype=np.int64)
+    if len(first) == 0:
+        return none, none, np.zeros(0)
+    low, high = first.min(axis=0) - radius, first.max(axis=0) + radius
+    # What is not finite is in no reach, and what is far away does not overflow the tree.
+    reachable = np.flatnonzero(((second >= low) & (second <= high)).all(axis=1))
+    if len(reachable) == 0:
+        return none, none, np.zeros(0)
+    found = cKDTree(first).sparse_distance_matrix(cKDTree(second[reachable]), radius, output_type="ndarray")
+    return found["i"], reachable[found["j"]], found["v"]
 
 
 def _gust(time: float) -> float:
