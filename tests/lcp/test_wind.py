@@ -138,7 +138,8 @@ def test_broken_hair_or_head_does_not_break_the_air(storm, hair, wrong):
         assert not np.isfinite(exchange.hair[[7, 11]]).any()
         assert np.isfinite(np.delete(exchange.hair, [7, 11], axis=0)).all()
     nowhere = HeadFrame(translation=np.full(3, wrong), velocity=np.full(3, wrong))
-    air, _ = wind.step(states[-1], STEADY, nowhere, nowhere.to_world(positions), velocities, 0.0, DT)
+    everywhere = np.full_like(positions, wrong)
+    air, _ = wind.step(states[-1], STEADY, nowhere, everywhere, velocities, 0.0, DT)
     assert np.isfinite(air.positions).all()
 
 

@@ -197,13 +197,7 @@ def test_what_is_restored_is_the_last_good_state_at_rest(simulation):
 
 @pytest.mark.parametrize(
     "changes",
-    [
-        {},
-        pytest.param(
-            {"wind.on": True},
-            marks=pytest.mark.xfail(strict=True, reason="the random numbers of the wind go on where they were"),
-        ),
-    ],
+    [{}, {"wind.on": True}],
     ids=["shake", "wind"],
 )
 def test_after_a_reset_all_is_as_it_was(built, changes):

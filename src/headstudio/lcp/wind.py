@@ -210,8 +210,8 @@ class Wind:
         """Drag between air and hair that are near each other: equal and opposite momentum for each pair.
 
         Positions [m] and velocities [m/s] in the world, (k, 3) and (n, 3). dt: [s]. Pairs relax toward each other; a
-        particle with many neighbours shares itself among them, so that no step can overshoot.
-        Hair at no finite place is answered with NaN.
+        particle with many neighbours shares itself among them, so that no step can overshoot. Hair at no
+        finite place is answered with NaN.
         """
         hair_gain, air_gain = np.where(np.isfinite(hair), 0.0, np.nan), np.zeros_like(air)
         a, b, distance = _near_pairs(air, hair, 2.0 * _CONTACT * _SPACING)
