@@ -105,16 +105,11 @@ class Wind:
             exchange = self.exchange(air.positions, air.velocities, hair_positions, hair_velocities, settings.drag, dt)
             velocities = air.velocities + exchange.air / self.mass
             sound = np.isfinite(velocities).all(axis=1)
-            positions, velocities = air.positions[sound], velocities[sound]
-            held = self._is_at_inlet(positions, direction)
-            velocities = np.where(held[:, None], wind, velocities)
-            positions, velocities = self._move(positions, velocities, ~held, wind, frame, dt)
-            # Nor does what was thrown back into the inlet blow against the wind.
-            velocities = np.where(self._is_at_inlet(positions, direction)[:, None], wind, velocities)
             blown = air.blown + wind * dt
             fresh = self._entering(blown, wind * dt)
-            positions = np.concatenate([positions, fresh])
-            velocities = np.concatenate([velocities, np.broadcast_to(wind, fresh.shape)])
+            positions = np.concatenate([air.positions[sound], fresh])
+            velocities = np.concatenate([velocities[sound], np.broadcast_to(wind, fresh.shape)])
+            positions, velocities = self._move(positions, velocities, wind, direction, frame, dt)
             kept = self._is_in_box(positions) & np.isfinite(velocities).all(axis=1)
             kept &= self._plane(positions, frame)[0] > _LOST
         return AirState(positions[kept], velocities[kept], blown), exchange
@@ -128,7 +123,10 @@ class Wind:
         return ~self._is_in_box(positions - _INLET * direction)
 
     def _entering(self, blown: Floats, advance: Floats) -> Floats:
-        """Points of the lattice that came into the box while it moved by ``advance`` to ``blown`` [m], (k, 3)."""
+        """Points of the lattice that come into the box while it moves by ``advance`` to ``blown`` [m], (k, 3).
+
+        They are given where they stand before that, so that even in a storm no air appears in the middle of the head.
+        """
         if not np.any(advance):
             return np.zeros((0, 3))
         first = np.floor((self.centre - self.half - blown) / _SPACING - _JITTER).astype(np.int64)
@@ -136,15 +134,13 @@ class Wind:
         ranges = (np.arange(a, b + 1) for a, b in zip(first, last, strict=True))
         point = np.stack(np.meshgrid(*ranges, indexing="ij"), axis=-1).reshape(-1, 3)
         place = point * _SPACING + self._shifts[tuple((point % _PERIOD).T)] + blown
-        return place[self._is_in_box(place) & ~self._is_in_box(place - advance)]
+        before = place - advance
+        return before[self._is_in_box(place) & ~self._is_in_box(before)]
 
     def _move(
-        self, positions: Floats, velocities: Floats, driven: Bools, wind: Floats, frame: HeadFrame, dt: float
+        self, positions: Floats, velocities: Floats, wind: Floats, direction: Floats, frame: HeadFrame, dt: float
     ) -> tuple[Floats, Floats]:
-        """Positions [m] and velocities [m/s] after dt, in strides that no contact plane is too thin for.
-
-        driven: the air that feels pressure; the rest keeps the speed of the wind.
-        """
+        """Positions [m] and velocities [m/s] after dt, in strides that no contact plane is too thin for."""
         fastest = np.max(np.linalg.norm(velocities, axis=1), initial=0.0)
         strides = math.ceil(min(max(fastest * dt / _STRIDE, _EVALUATIONS), _MOST_STRIDES))
         part = dt / strides
@@ -155,11 +151,13 @@ class Wind:
         for stride in range(strides):
             if stride in evaluations:
                 push = dt / _EVALUATIONS * self._acceleration(positions, velocities, wind, pairs, dt / _EVALUATIONS)
-                velocities = velocities + np.where(driven[:, None], push, 0.0)
+                held = self._is_at_inlet(positions, direction)[:, None]
+                velocities = np.where(held, wind, velocities + push)
                 speed = np.linalg.norm(velocities, axis=1, keepdims=True)
                 velocities = velocities * np.minimum(1.0, top_speed / np.maximum(speed, 1e-9))
             positions, velocities = self._slide(positions, velocities, frame, part)
-        return positions, velocities
+        # Nor does what was thrown back into the inlet blow against the wind.
+        return positions, np.where(self._is_at_inlet(positions, direction)[:, None], wind, velocities)
 
     def _acceleration(self, positions: Floats, velocities: Floats, wind: Floats, pairs: Ints, dt: float) -> Floats:
         """Pressure of the air (eq. 16 for a gas) and the wind that drives it on [m/s^2], (k, 3), to act for dt [s]."""
