@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import eigsh
 
 from ..head.mesh import Floats
 from .kernel import kernel
@@ -27,6 +28,7 @@ _FIRST_MODE = 12.36  # 1.8751^4: first mode of a clamped beam
 _STANDARD_GRAVITY = 9.81  # the one the beam was bent by [m/s^2]
 _HIGHEST = 2000.0  # of kappa [1/s^2]: stiffer hair moves with the head all the same
 _REACH = 2.0  # bending lengths at which half of the weight is still carried
+_STEP_LIMIT = 0.5  # of a square frequency times a square step that an explicit step still carries
 _RELAXATION = 0.004  # bending dies away within this time beyond its period [s]
 
 
@@ -48,8 +50,7 @@ class Bending:
         self._rest_turn = self._turn @ model.rest_positions
         # B = w l^3 with w the weight per length: energy of a turn of one radian over the distance, per mass [J/kg].
         self._rigidity = _STANDARD_GRAVITY * length**3 / distance**2
-        # Square frequency of a particle that turns against all its neighbours [1/s^2].
-        self._fastest = 2.0 * self._rigidity * np.asarray(abs(self._turn).sum(axis=1)) ** 2
+        self._fastest = _square_frequencies(self._turn, self._rigidity)
 
     def kappa(self, settings: DynamicsSettings) -> Floats:
         """Square frequency with which every particle returns to its place [1/s^2], (n,)."""
@@ -72,10 +73,25 @@ class Bending:
         for an explicit step is taken as stiff as it can be.
         """
         rigidity = settings.stiffness * self._rigidity
-        rigidity = self.model.mass * rigidity / (1.0 + settings.stiffness * self._fastest * dt * dt)
+        rigidity = (
+            self.model.mass * rigidity / np.maximum(settings.stiffness * self._fastest * dt * dt / _STEP_LIMIT, 1.0)
+        )
         rest = turned_along(self._rest_turn, self.model.rest_directions, directions)
         excess = self._turn @ (positions + _RELAXATION * velocities) - rest
         return -(self._turn_back @ (rigidity[:, None] * excess))
+
+
+def _square_frequencies(turn: sparse.csr_array, rigidity: Floats) -> Floats:
+    """Square of the fastest bending frequency around every particle [1/s^2], (n,), at stiffness 1.
+
+    In proportion to how sharply each can turn against its neighbours, and scaled to the fastest there is.
+    """
+    around = rigidity * np.asarray(abs(turn).sum(axis=1)) ** 2
+    if not around.any():
+        return around
+    energy = turn.T @ sparse.diags_array(rigidity) @ turn
+    fastest = eigsh(energy, k=1, return_eigenvectors=False, v0=np.ones(turn.shape[0]), tol=1e-2)[0]
+    return around * (float(fastest) / around.max())
 
 
 def _turning(model: HairModel) -> tuple[sparse.csr_array, Floats]:
