@@ -111,7 +111,7 @@ def test_far_from_the_body_there_is_no_contact():
 def test_what_is_too_deep_is_put_back_to_the_surface():
     chain = hanging_chain(3)
     touch = Touching(np.array([0.0, -0.05, -0.0001]), np.repeat(UP, 3, axis=0), np.zeros((3, 3)), np.zeros(3))
-    moved = put_back(chain, chain.rest_positions, touch) - chain.rest_positions
+    moved = put_back(chain, chain.rest_positions, touch, touch.distance) - chain.rest_positions
     assert moved[1, 1] == pytest.approx(0.05, abs=0.005)
     np.testing.assert_allclose(moved[2], 0, atol=1e-12)
 
@@ -119,13 +119,15 @@ def test_what_is_too_deep_is_put_back_to_the_surface():
 def test_root_particles_are_not_lifted():
     chain = hanging_chain(2)
     touch = Touching(np.full(2, -0.05), np.repeat(UP, 2, axis=0), np.zeros((2, 3)), np.zeros(2))
-    np.testing.assert_array_equal(put_back(chain, chain.rest_positions, touch)[0], chain.rest_positions[0])
+    np.testing.assert_array_equal(
+        put_back(chain, chain.rest_positions, touch, touch.distance)[0], chain.rest_positions[0]
+    )
 
 
 def test_what_is_too_far_out_is_put_back_within_its_reach():
     chain = hanging_chain(3, arc_length=np.array([-0.002, 0.05, 0.1]))
     x = np.array([[0.0, 0.0, 0.0], [1.0, 2.0, -2.0], [0.03, 0.0, 0.04]])
-    back = put_back(chain, x, no_touch(3))
+    back = put_back(chain, x, no_touch(3), no_touch(3).distance)
     assert np.linalg.norm(back[1]) == pytest.approx(LONGEST_REACH * 0.05, rel=0.03)
     np.testing.assert_allclose(back[1] / np.linalg.norm(back[1]), x[1] / 3)
     np.testing.assert_allclose(back[[0, 2]], x[[0, 2]])
@@ -137,7 +139,9 @@ def test_hair_at_rest_touches_nothing_that_moves_it(hair, ball):
     still = np.zeros((hair.count, 3))
     free = ~hair.fixed
     assert np.abs(stop_at_body(still, touch, touch.distance, 0.5, DT)[free]).max() < 0.1
-    np.testing.assert_allclose(put_back(hair, hair.rest_positions, touch)[free], hair.rest_positions[free])
+    np.testing.assert_allclose(
+        put_back(hair, hair.rest_positions, touch, touch.distance)[free], hair.rest_positions[free]
+    )
 
 
 def test_falling_hair_stops_on_the_ball(hair, ball):

@@ -69,12 +69,12 @@ def stop_at_body(velocities: Floats, touch: Touching, distance: Floats, friction
     return velocities + (impulse + emerging)[:, None] * touch.normals - braked[:, None] * sliding
 
 
-def put_back(model: HairModel, positions: Floats, touch: Touching) -> Floats:
-    """Positions [m], (n, 3), with what one step could not stop put back.
+def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Floats) -> Floats:
+    """Positions [m], (n, 3), at ``distance`` from their planes [m], (n,), with what one step could not stop put back.
 
     None is deeper than ``_DEEPEST`` below its plane, then none further from its root than ``_LAST_REACH`` times its length.
     """
-    excess = np.maximum(np.minimum(touch.keep, 0.0) - _DEEPEST - touch.distance, 0.0)
+    excess = np.maximum(np.minimum(touch.keep, 0.0) - _DEEPEST - distance, 0.0)
     from_root = positions + excess[:, None] * touch.normals - model.root_points
     reach = np.sqrt(np.einsum("ij,ij->i", from_root, from_root))
     share = np.minimum(1.0, _LAST_REACH * model.arc_length / np.maximum(reach, 1e-12))

@@ -117,11 +117,10 @@ class Dynamics:
         velocities[self.model.fixed] = 0.0
         return velocities
 
-    def put_back(self, positions: Floats, frame: HeadFrame) -> Floats:
-        """Positions [m], (n, 3), with what ended up deep in the body or beyond its reach put back."""
-        touch = self.touch(positions, frame)
+    def put_back(self, positions: Floats, touch: Touching, distance: Floats) -> Floats:
+        """Positions [m], (n, 3), at ``distance`` from their planes, with what is too deep or too far put back."""
         with self.timer.stage("contact"):
-            return put_back(self.model, positions, touch)
+            return put_back(self.model, positions, touch, distance)
 
     def turn(self, positions: Floats, directions: Floats, settings: DynamicsSettings) -> Floats:
         """Hair directions at new positions (eq. 15), unit, (n, 3)."""

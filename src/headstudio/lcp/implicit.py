@@ -27,22 +27,27 @@ from .model import HairState
 from .settings import DynamicsSettings
 from .springs import LinkState
 
-# A step has two parts for links of 3 cm, and more the shorter they are: between two parts no link should turn round.
-_FEWEST_PARTS = 2
+# A step has two parts for links of 3 cm and more the shorter they are, so that between two parts no link turns round; and
+# more, for accuracy, as long as few particles leave the time for it.
+_FEWEST_PARTS, _MOST_PARTS = 2, 6
 _PART_LENGTH = 0.056  # [m]
-_TOLERANCE = 3e-3
+_PARTICLES_IN_TIME = 4000  # particles times parts that keep up with real time
+_TOLERANCE = 1e-2
 _MOST_ITERATIONS = 60
 
 
 class ImplicitSolver:
     """Steps hair at the rate of the display, whatever the stiffness."""
 
-    def __init__(self, dynamics: Dynamics) -> None:
+    def __init__(self, dynamics: Dynamics, parts: int | None = None, tolerance: float = _TOLERANCE) -> None:
+        """parts: of a step; by the length of links and what real time affords if not given. tolerance: of the solution."""
         self.dynamics = dynamics
         self.iterations = 0
-        spacing = float(np.median(dynamics.model.rest_length)) if len(dynamics.model.rest_length) else _PART_LENGTH
-        self.parts = max(_FEWEST_PARTS, round(_PART_LENGTH / spacing))
-        self._matrix = _SpringMatrix(dynamics)
+        model = dynamics.model
+        length = float(np.median(model.rest_length)) if len(model.rest_length) else _PART_LENGTH
+        affordable = min(_PARTICLES_IN_TIME // max(model.count, 1), _MOST_PARTS)
+        self.parts = parts or max(_FEWEST_PARTS, round(_PART_LENGTH / length), affordable)
+        self._matrix = _SpringMatrix(dynamics, tolerance)
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
@@ -83,7 +88,8 @@ class ImplicitSolver:
         touch = dynamics.touch(x_hat + g * free, frame)
         distance = touch.distance - g * np.einsum("ij,ij->i", free - touch.velocity, touch.normals)
         v_new = dynamics.hold(x_hat, free, touch, distance, now, g)
-        x_new = dynamics.put_back(x_hat + g * v_new, frame)
+        distance = distance + g * np.einsum("ij,ij->i", v_new - touch.velocity, touch.normals)
+        x_new = dynamics.put_back(x_hat + g * v_new, touch, distance)
         # A held particle has a kink in its path. Where it was held it looks back on a straight one, or it would bounce.
         kink = _unit(v_new - free)
         before = (x + _along(kink, x_new - dt * v_new - x), v + _along(kink, v_new - v))
@@ -117,7 +123,8 @@ def _along(unit: Floats, a: Floats) -> Floats:
 class _SpringMatrix:
     """The matrix of the free particles in 3 x 3 blocks, with a fixed pattern, and its solution."""
 
-    def __init__(self, dynamics: Dynamics) -> None:
+    def __init__(self, dynamics: Dynamics, tolerance: float) -> None:
+        self.tolerance = tolerance
         self.springs = dynamics.springs
         model = dynamics.model
         self.model = model
@@ -155,8 +162,9 @@ class _SpringMatrix:
         block = (along[:, None] * links.unit)[:, :, None] * links.unit[:, None, :]
         block[:, [0, 1, 2], [0, 1, 2]] += turning[:, None]
         flat = block.reshape(-1, 9)
-        self._blocks[self._upper] = -block[self.inner]
-        self._blocks[self._lower] = -block[self.inner]
+        coupling = -block[self.inner]
+        self._blocks[self._upper] = coupling
+        self._blocks[self._lower] = coupling
         diagonal = springs.sum_at_ends(flat, flat)[self.free].reshape(-1, 3, 3)
         diagonal[:, [0, 1, 2], [0, 1, 2]] += inertia[self.free, None]
         self._blocks[self._diagonal] = diagonal
@@ -177,7 +185,7 @@ class _SpringMatrix:
         if not np.isfinite(rho):
             # A force that is no number must not pass for one that is solved.
             return np.full_like(right, np.nan)
-        goal = _TOLERANCE**2 * rho
+        goal = self.tolerance**2 * rho
         self.iterations = 0
         while rho > goal and self.iterations < _MOST_ITERATIONS:
             image = matrix @ direction

@@ -51,5 +51,6 @@ class LeapfrogSolver:
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v = dynamics.hold(x, v, touch, touch.distance, now, dt)
-        x = dynamics.put_back(x + dt * v, frame)
+        distance = touch.distance + dt * np.einsum("ij,ij->i", v - touch.velocity, touch.normals)
+        x = dynamics.put_back(x + dt * v, touch, distance)
         return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)
