@@ -7,6 +7,7 @@ import numpy as np
 
 from .frame import HeadFrame
 from .head import Head
+from .locate import Locator
 from .mesh import Floats, Ints, TriangleMesh
 
 
@@ -39,8 +40,7 @@ class _Surface:
 
     def __init__(self, mesh: TriangleMesh, faces: Ints) -> None:
         self._mesh = TriangleMesh(mesh.vertices, mesh.faces[faces])
-        self._tree = igl.AABB()
-        self._tree.init(self._mesh.vertices, self._mesh.faces)
+        self._locator = Locator(self._mesh.vertices, self._mesh.faces)
         border = igl.boundary_facets(self._mesh.faces)[0]
         self._on_border = np.zeros(len(mesh.vertices), dtype=bool)
         self._on_border[border.ravel()] = True
@@ -48,9 +48,10 @@ class _Surface:
     def signed_distance(self, points: Floats) -> Floats:
         """Distance to the surface [m], negative below it, (n,). Past the surface's border nothing is below it."""
         mesh = self._mesh
-        squared, face, closest = self._tree.squared_distance(mesh.vertices, mesh.faces, points)
-        face = np.asarray(face).ravel()
-        outward = np.einsum("ij,ij->i", points - closest, mesh.face_normals[face])
-        below = (outward < 0) & ~self._on_border[mesh.faces[face]].any(axis=1)
-        distance = np.sqrt(np.asarray(squared).ravel())
+        nearest, distance = self._locator.nearest(points)
+        closest = nearest.blend(mesh.vertices, mesh.faces)
+        # At an edge or a corner no single face tells the inside: the normals of the corners, weighted by angle, do.
+        normals = nearest.blend(mesh.vertex_normals, mesh.faces)
+        below = np.einsum("ij,ij->i", points - closest, normals) < 0
+        below &= ~self._on_border[mesh.faces[nearest.faces]].any(axis=1)
         return np.where(below, -distance, distance)
