@@ -18,6 +18,8 @@ from .model import HairModel
 # Hair this much longer than its arc length is drawn back: it stretches no further, however it is pulled.
 LONGEST_REACH = 1.025
 _LAST_REACH = 1.04
+LONGEST_LINK = 1.08
+_LENGTHWISE = 0.9  # alignment from which a link runs along the hair
 # Time in which hair below the surface comes out again [s]. As a force (eq. 3.24) it would lose against a stiff spring.
 _EMERGENCE = 0.03
 _DEEPEST = 0.002  # that hair may be below the surface at the end of a step [m]
@@ -79,6 +81,31 @@ def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Flo
     reach = np.sqrt(np.einsum("ij,ij->i", from_root, from_root))
     share = np.minimum(1.0, _LAST_REACH * model.arc_length / np.maximum(reach, 1e-12))
     return np.where(model.fixed[:, None], positions, model.root_points + share[:, None] * from_root)
+
+
+def drawn_along(model: HairModel, positions: Floats) -> Floats:
+    """Positions [m], (n, 3), where no particle is left far behind by the hair that it continues.
+
+    What squeezes between head and torso can hold hair so fast that its springs would have to pull for many steps. A
+    particle follows those of its rootward links that run along the hair and still hold, and its lifeline in any case.
+    """
+    rootward, tipward = model.links.T
+    offset = positions[tipward] - positions[rootward]
+    length = np.sqrt(np.einsum("ij,ij->i", offset, offset))
+    lifeline = np.zeros(len(length), dtype=bool)
+    lifeline[model.lifeline[model.lifeline >= 0]] = True
+    holds = (model.alignment >= _LENGTHWISE) & (length < 2.0 * model.smoothing_length_links)
+    excess = length - LONGEST_LINK * model.rest_length
+    far = np.flatnonzero((excess > 0) & (holds | lifeline))
+    if len(far) == 0:
+        return positions
+    behind = tipward[far]
+    way = -(excess[far] / length[far])[:, None] * offset[far]
+    share = 1.0 / np.bincount(behind, minlength=model.count)[behind]
+    drawn = positions.copy()
+    for axis in range(3):
+        drawn[:, axis] += np.bincount(behind, share * way[:, axis], model.count)
+    return drawn
 
 
 def stop_at_reach(

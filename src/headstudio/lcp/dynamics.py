@@ -11,7 +11,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
 from .bending import Bending
 from .body import Body
-from .contact import Touching, put_back, stop_at_body, stop_at_reach, touching
+from .contact import Touching, drawn_along, put_back, stop_at_body, stop_at_reach, touching
 from .direction import updated_directions
 from .inertia import apparent_acceleration
 from .interactions import hair_hair_forces
@@ -117,9 +117,13 @@ class Dynamics:
         velocities[self.model.fixed] = 0.0
         return velocities
 
-    def put_back(self, positions: Floats, touch: Touching, distance: Floats) -> Floats:
+    def put_back(self, positions: Floats, touch: Touching, distance: Floats, now: Circumstances) -> Floats:
         """Positions [m], (n, 3), at ``distance`` from their planes, with what is too deep or too far put back."""
         with self.timer.stage("contact"):
+            if now.parting is None:
+                drawn = drawn_along(self.model, positions)
+                distance = distance + np.einsum("ij,ij->i", drawn - positions, touch.normals)
+                positions = drawn
             return put_back(self.model, positions, touch, distance)
 
     def turn(self, positions: Floats, directions: Floats, settings: DynamicsSettings) -> Floats:
