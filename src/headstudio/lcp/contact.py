@@ -22,7 +22,7 @@ LONGEST_LINK = 1.08
 _LENGTHWISE = 0.9  # alignment from which a link runs along the hair
 # Time in which hair below the surface comes out again [s]. As a force (eq. 3.24) it would lose against a stiff spring.
 _EMERGENCE = 0.03
-_DEEPEST = 0.002  # that hair may be below the surface at the end of a step [m]
+_DEEPEST = 0.001  # that hair may be below the surface at the end of a step [m]
 _THICKNESS = 0.5  # of the mean distance of particles: where the surface of a particle's hair touches the body
 _BEGINNING = 3.0  # of it: so much of a hair may lie closer to the skin than that
 # A pull toward the root that would lead into the body goes along it instead, unless it stands this steep on it.

@@ -80,7 +80,7 @@ class ImplicitSolver:
         with dynamics.timer.stage("solve"):
             inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
             self._matrix.update(links, settings, g, inertia * model.mass)
-            change = self._matrix.solve(right)
+            change = self._matrix.solve(right, v - v_before)
             self.iterations += self._matrix.iterations
 
         free = v + change
@@ -118,6 +118,21 @@ def _unit(a: Floats) -> Floats:
 def _along(unit: Floats, a: Floats) -> Floats:
     """The part of ``a`` along ``unit``, row by row, (n, 3)."""
     return np.einsum("ij,ij->i", unit, a)[:, None] * unit
+
+
+def _inverse_of_symmetric(blocks: Floats) -> Floats:
+    """The inverses of symmetric 3 x 3 matrices by their cofactors, (n, 3, 3): a third of the time of a general solver."""
+    a, b, c = blocks[:, 0, 0], blocks[:, 0, 1], blocks[:, 0, 2]
+    d, e, f = blocks[:, 1, 1], blocks[:, 1, 2], blocks[:, 2, 2]
+    cofactors = np.empty_like(blocks)
+    cofactors[:, 0, 0] = d * f - e * e
+    cofactors[:, 0, 1] = cofactors[:, 1, 0] = c * e - b * f
+    cofactors[:, 0, 2] = cofactors[:, 2, 0] = b * e - c * d
+    cofactors[:, 1, 1] = a * f - c * c
+    cofactors[:, 1, 2] = cofactors[:, 2, 1] = b * c - a * e
+    cofactors[:, 2, 2] = a * d - b * b
+    determinant = a * cofactors[:, 0, 0] + b * cofactors[:, 0, 1] + c * cofactors[:, 0, 2]
+    return cofactors / determinant[:, None, None]
 
 
 class _SpringMatrix:
@@ -168,13 +183,14 @@ class _SpringMatrix:
         diagonal = springs.sum_at_ends(flat, flat)[self.free].reshape(-1, 3, 3)
         diagonal[:, [0, 1, 2], [0, 1, 2]] += inertia[self.free, None]
         self._blocks[self._diagonal] = diagonal
-        self._inverse = np.linalg.inv(diagonal)
+        self._inverse = _inverse_of_symmetric(diagonal)
 
-    def solve(self, right: Floats) -> Floats:
-        """Conjugate gradients, preconditioned with the inverted diagonal blocks; (n, 3), zero for root particles."""
+    def solve(self, right: Floats, guess: Floats) -> Floats:
+        """Conjugate gradients from ``guess``, preconditioned with the inverted diagonal blocks; (n, 3), root particles zero."""
         matrix, inverse = self._matrix, self._inverse
-        residual = right[self.free].ravel()
-        solution = np.zeros_like(residual)
+        wanted = right[self.free].ravel()
+        solution = guess[self.free].ravel()
+        residual = wanted - matrix @ solution
 
         def precondition(r: Floats) -> Floats:
             return np.einsum("nij,nj->ni", inverse, r.reshape(-1, 3)).ravel()
@@ -185,7 +201,7 @@ class _SpringMatrix:
         if not np.isfinite(rho):
             # A force that is no number must not pass for one that is solved.
             return np.full_like(right, np.nan)
-        goal = self.tolerance**2 * rho
+        goal = self.tolerance**2 * (wanted @ precondition(wanted))
         self.iterations = 0
         while rho > goal and self.iterations < _MOST_ITERATIONS:
             image = matrix @ direction
