@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..head.frame import HeadFrame
-from ..head.mesh import Floats, Ints
+from ..head.mesh import Floats
 from .bending import Bending
 from .body import Body
 from .contact import Touching, drawn_along, put_back, stop_at_body, stop_at_reach, touching
@@ -131,7 +131,3 @@ class Dynamics:
         links = self.links(positions, settings)
         with self.timer.stage("directions"):
             return updated_directions(self.model, self.springs, links, directions)
-
-    def pairs(self, positions: Floats) -> Ints:
-        """Pairs of particles near each other, each once, (p, 2)."""
-        return self.neighbours.pairs(positions)
