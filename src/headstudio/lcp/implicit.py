@@ -91,7 +91,7 @@ class ImplicitSolver:
         distance = distance + g * np.einsum("ij,ij->i", v_new - touch.velocity, touch.normals)
         x_new = dynamics.put_back(x_hat + g * v_new, touch, distance, now)
         # A held particle has a kink in its path. Where it was held it looks back on a straight one, or it would bounce.
-        kink = _unit(v_new - free)
+        kink = _unit(x_new - (x_hat + g * free))
         before = (x + _along(kink, x_new - dt * v_new - x), v + _along(kink, v_new - v))
         return HairState(x_new, v_new, state.directions, state.time + dt, before)
 

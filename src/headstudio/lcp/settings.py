@@ -93,7 +93,7 @@ class DynamicsSettings:
         2.0, "Spring damping", "", 0.0, 5.0, "Damping of the springs as a fraction of critical.", live=True
     )
     air_friction: float = number(
-        1.5, "Air friction", "1/s", 0.0, 20.0, "Rate at which still air slows hair down.", live=True
+        2.5, "Air friction", "1/s", 0.0, 20.0, "Rate at which still air slows hair down.", live=True
     )
     gravity: float = number(9.81, "Gravity", "m/s^2", 0.0, 30.0, "Acceleration of free fall.", live=True)
     interactions: bool = switch(
