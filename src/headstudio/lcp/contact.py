@@ -13,13 +13,13 @@ import numpy as np
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from .body import Body
+from .links import LENGTHWISE
 from .model import HairModel
 
 # Hair this much longer than its arc length is drawn back: it stretches no further, however it is pulled.
 LONGEST_REACH = 1.025
 _LAST_REACH = 1.04
 LONGEST_LINK = 1.08
-_LENGTHWISE = 0.9  # alignment from which a link runs along the hair
 # Time in which hair below the surface comes out again [s]. As a force (eq. 3.24) it would lose against a stiff spring.
 _EMERGENCE = 0.03
 _DEEPEST = 0.001  # that hair may be below the surface at the end of a step [m]
@@ -94,7 +94,7 @@ def drawn_along(model: HairModel, positions: Floats) -> Floats:
     length = np.sqrt(np.einsum("ij,ij->i", offset, offset))
     lifeline = np.zeros(len(length), dtype=bool)
     lifeline[model.lifeline[model.lifeline >= 0]] = True
-    holds = (model.alignment >= _LENGTHWISE) & (length < 2.0 * model.smoothing_length_links)
+    holds = (model.alignment >= LENGTHWISE) & (length < 2.0 * model.smoothing_length_links)
     excess = length - LONGEST_LINK * model.rest_length
     far = np.flatnonzero((excess > 0) & (holds | lifeline))
     if len(far) == 0:

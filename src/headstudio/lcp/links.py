@@ -12,6 +12,7 @@ from .kernel import kernel
 from .neighbours import find_pairs
 
 SMALLEST_ALIGNMENT = 0.5  # a_0 of the paper
+LENGTHWISE = 0.9  # alignment from which a link runs along the hair, and its stretch is the hair's
 WANTED_LINKS = 12  # N_n of the paper
 _KEPT_ROOTWARD = 3
 # Shortest rest length as a part of the distance along the hair, and weakest link as a part of a particle's strongest.

@@ -8,11 +8,10 @@ from ..head.depth import SkinDepth
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
 from ..lcp.density import density
+from ..lcp.links import LENGTHWISE
 from ..lcp.model import HairModel, HairState
 from ..lcp.neighbours import find_pairs
 from ..lcp.parting import Parting, gap
-
-_LENGTHWISE = 0.9  # alignment from which a link counts as lengthwise
 
 
 def hair_figures(model: HairModel, state: HairState) -> dict[str, float]:
@@ -39,7 +38,7 @@ def hair_figures(model: HairModel, state: HairState) -> dict[str, float]:
 
 def link_stretch(model: HairModel, positions: Floats) -> Floats:
     """Strain of the lengthwise links in tension, 0 for compressed ones, (k,)."""
-    lengthwise = model.alignment >= _LENGTHWISE
+    lengthwise = model.alignment >= LENGTHWISE
     length = _distances(positions, model.links[lengthwise])
     return np.maximum(length / model.rest_length[lengthwise] - 1.0, 0.0)
 
