@@ -186,7 +186,11 @@ def test_damaged_base_mesh(copied_data, damage):
         makehuman()
 
 
-@pytest.mark.parametrize("damage", [None, b"", b"no gzip", gzip.compress(b"1 2 3\n"), gzip.compress(b"a b c d\n")])
+@pytest.mark.parametrize(
+    "damage",
+    [None, b"", b"no gzip", gzip.compress(b"1 2 3\n", mtime=0), gzip.compress(b"a b c d\n", mtime=0)],
+    ids=["missing", "empty", "not compressed", "three words", "no numbers"],
+)
 def test_damaged_target(copied_data, damage):
     path = copied_data / "targets" / "macrodetails" / "asian-female-young.target.gz"
     path.unlink()
