@@ -1,0 +1,1 @@
+"""Statistical wisps and the styler (Choe, Ko 2005)."""

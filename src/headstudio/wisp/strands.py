@@ -1,0 +1,59 @@
+"""Strands as everything else takes them: points in one packed array, and no object per strand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Singles = NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class Strands:
+    """Hair strands, root first, in the head frame.
+
+    points: of all strands, one strand after the other [m], (p, 3). first: where each strand starts in ``points``, and at
+    the end p, (n + 1,); a strand has two points or more. radius: half the thickness of the shaft at every point [m],
+    (p,). colour: what colour the hair looks in even light, linear RGB, at every point, (p, 3). wisp: which wisp a strand
+    belongs to, (n,), -1 for none. None: not known, whoever draws decides.
+    """
+
+    points: Singles
+    first: NDArray[np.int64]
+    radius: Singles | None = None
+    colour: Singles | None = None
+    wisp: NDArray[np.int32] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", np.ascontiguousarray(self.points, dtype=np.float32))
+        object.__setattr__(self, "first", np.ascontiguousarray(self.first, dtype=np.int64))
+
+    @classmethod
+    def of_equal_count(
+        cls,
+        points: Singles,
+        radius: Singles | None = None,
+        colour: Singles | None = None,
+        wisp: NDArray[np.int32] | None = None,
+    ) -> Strands:
+        """Strands of k points each: points (n, k, 3), radius (n, k), colour (n, k, 3), wisp (n,)."""
+        strands, count, _ = points.shape
+        return cls(
+            points.reshape(-1, 3),
+            np.arange(strands + 1) * count,
+            None if radius is None else radius.reshape(-1),
+            None if colour is None else colour.reshape(-1, 3),
+            wisp,
+        )
+
+    @property
+    def count(self) -> int:
+        """How many strands there are, n."""
+        return len(self.first) - 1
+
+    @property
+    def counts(self) -> NDArray[np.int64]:
+        """How many points each strand has, (n,)."""
+        return np.diff(self.first)

@@ -1,0 +1,1 @@
+"""Expressive and fine wrinkles (Bando's thesis 2003, chapter 2)."""
