@@ -53,12 +53,13 @@ def foreseen(error: BaseException) -> bool:
     from ..head.head import HeadError
     from ..io.compare import PictureError
     from ..io.film import FilmError
+    from ..io.hair import HairFileError
     from ..params import ParameterError
     from ..render.context import RenderError
     from ..scene.project import ProjectError
     from ..scene.take import TakeError
 
-    own = HeadError | ParameterError | ProjectError | TakeError | PictureError | FilmError | RenderError
+    own = HeadError | ParameterError | ProjectError | TakeError | PictureError | FilmError | HairFileError | RenderError
     return isinstance(error, OSError | own)
 
 
