@@ -11,7 +11,9 @@ from scipy.spatial.transform import Rotation
 from headstudio.head.head import Head, HeadError
 from headstudio.head.inspection import inspect_head
 from headstudio.head.load import load_head
+from headstudio.head.locate import locator
 from headstudio.head.makehuman_data import data_folder, read_base_mesh
+from headstudio.head.mannequin import mannequin
 from headstudio.head.mesh import TriangleMesh
 from headstudio.head.parts import joined
 from headstudio.head.read import FORMATS
@@ -268,3 +270,16 @@ def test_inspection_warns(tmp_path):
     warnings = "\n".join(inspect_head(write(finned, tmp_path / "torn.ply")).warnings)
     for words in ("1 holes in the skull", "no eyeballs", "1 edges have more than two triangles"):
         assert words in warnings
+
+
+def test_points_of_the_file_find_their_place_in_the_head_frame(tmp_path):
+    head = mannequin()
+    turn = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
+    in_file = 1000 * head.skin.vertices @ turn.T + [30.0, 5.0, -400.0]
+    path = tmp_path / "turned.ply"
+    trimesh.Trimesh(in_file, head.skin.faces, process=False).export(path)
+    found = load_head(str(path))
+    matrix = found.from_file
+    placed = in_file @ matrix[:3, :3].T + matrix[:3, 3]
+    _, distance = locator(found.skin).nearest(placed[head.skin.vertices[:, 1] > 0])
+    assert np.median(distance) < 1e-5

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from .bust import cut_bust, head_weight
 from .eyes import pupil
 from .head import Head, HeadError, Landmarks, Part
@@ -62,6 +64,7 @@ def head_from_mesh(mesh: TriangleMesh, repairs: Repairs, path: Path) -> Head:
             *found.notes,
             *_bust_notes(body, bust),
         ),
+        from_file=_placement(stance, unit.metres, origin),
     )
 
 
@@ -103,6 +106,14 @@ def _pupils(parts: list[Part]) -> tuple[Floats, Floats] | None:
 def _moved(part: Part, shift: Floats) -> Part:
     centre = None if part.centre is None else part.centre + shift
     return replace(part, mesh=part.mesh.moved(part.mesh.vertices + shift), centre=centre)
+
+
+def _placement(stance: Stance, metres: float, origin: Floats) -> Floats:
+    """What was done to every point of the file, as a matrix."""
+    matrix = np.eye(4)
+    matrix[:3, 3] = stance.upright(np.zeros((1, 3)), metres)[0] - origin
+    matrix[:3, :3] = metres * stance.rotation
+    return matrix
 
 
 def _axes_note(stance: Stance) -> str:

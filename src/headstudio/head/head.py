@@ -80,3 +80,4 @@ class Head:
     parts: tuple[Part, ...] = ()
     expressions: Mapping[str, Expression] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    from_file: Floats | None = None
