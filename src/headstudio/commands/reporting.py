@@ -58,8 +58,9 @@ def foreseen(error: BaseException) -> bool:
     from ..render.context import RenderError
     from ..scene.project import ProjectError
     from ..scene.take import TakeError
+    from ..wisp.adopt import AdoptError
 
-    own = HeadError | ParameterError | ProjectError | TakeError | PictureError | FilmError | HairFileError | RenderError
+    own = HeadError | ParameterError | ProjectError | TakeError | PictureError | FilmError | HairFileError | AdoptError | RenderError
     return isinstance(error, OSError | own)
 
 
