@@ -30,6 +30,7 @@ SHOWN_UNITS: dict[str, tuple[str, float]] = {
     "cm": ("m", 100.0),
     "mm": ("m", 1000.0),
     "g": ("kg", 1000.0),
+    "kPa": ("Pa", 0.001),
     "deg": ("rad", 180.0 / math.pi),
 }
 

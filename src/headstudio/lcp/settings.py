@@ -59,6 +59,7 @@ class DynamicsSettings:
         1e5,
         1e7,
         "Tensile modulus E that every particle keeps (eq. 8).",
+        shown="kPa",
         log=True,
         live=True,
     )
