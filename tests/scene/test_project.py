@@ -151,16 +151,16 @@ def test_a_failing_save_keeps_the_old_project(saved, monkeypatch):
 def test_what_is_not_known_is_reported_and_left_out(saved):
     def from_the_future(manifest):
         manifest["parameters"]["hair"]["glitter"] = 3
-        manifest["parameters"]["wisp"] = {"radius": 0.01}
+        manifest["parameters"]["tattoo"] = {"radius": 0.01}
 
     edit_manifest(saved, from_the_future)
-    rewrite(saved, **{"wisp/prototypes.json": b"[]"})
+    rewrite(saved, **{"tattoo/pictures.json": b"[]"})
     read = load_project(saved)
     assert read.document.hair.length == 0.42
     assert [warning.split(" is not known")[0] for warning in read.warnings] == [
         "parameter hair.glitter",
-        "parameter wisp.radius",
-        "wisp/prototypes.json",
+        "parameter tattoo.radius",
+        "tattoo/pictures.json",
     ]
 
 

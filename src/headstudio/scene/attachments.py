@@ -18,6 +18,9 @@ import numpy as np
 from PIL import Image, UnidentifiedImageError
 
 from ..head.scalp_settings import GrayImage
+from ..params import ParameterError
+from ..wisp.curves import checked_curve
+from ..wisp.settings import CurvePoints, Path3D
 
 Curves = tuple[tuple[tuple[float, float, float], ...], ...]
 
@@ -72,7 +75,54 @@ def decode_curves(content: bytes) -> Curves:
     return curves
 
 
+def encode_points(points: CurvePoints | Path3D) -> bytes:
+    """Points as JSON, a line each."""
+    lines = ",\n".join(" " + json.dumps(point, allow_nan=False) for point in points)
+    return f"[\n{lines}\n]\n".encode()
+
+
+def decode_curve(content: bytes) -> CurvePoints:
+    """The control points of a curve over 0 to 1. Raises ValueError."""
+    points: CurvePoints = _decode_points(content, 2)
+    try:
+        checked_curve(points)
+    except ParameterError as error:
+        raise ValueError(f"cannot be used: {error}") from None
+    return points
+
+
+def decode_line(content: bytes) -> CurvePoints:
+    """Points (u, v) of a line on the scalp square. Raises ValueError."""
+    points: CurvePoints = _decode_points(content, 2)
+    return points
+
+
+def decode_path(content: bytes) -> Path3D:
+    """Points of a line in space [m]. Raises ValueError."""
+    points: Path3D = _decode_points(content, 3)
+    return points
+
+
+def _decode_points(content: bytes, dimensions: int) -> Any:
+    try:
+        points = tuple(tuple(float(number) for number in point) for point in json.loads(content))
+    except (TypeError, ValueError, OverflowError, RecursionError):
+        raise ValueError("is no list of points") from None
+    if len(points) < 2 or any(len(point) != dimensions for point in points):
+        raise ValueError(f"does not hold two or more points of {dimensions} numbers")
+    if not all(math.isfinite(number) for point in points for number in point):
+        raise ValueError("holds numbers that are not finite")
+    return points
+
+
 ATTACHMENTS = (
     Attachment("scalp.curves", "scalp/curves.json", encode_curves, decode_curves),
     Attachment("scalp.painted_lengths", "scalp/lengths.png", encode_gray, decode_gray),
+    Attachment("wisp.length_curve", "wisp/length_distribution.json", encode_points, decode_curve),
+    Attachment("wisp.radius_curve", "wisp/deviation_radius.json", encode_points, decode_curve),
+    Attachment("wisp.prototype_curve", "wisp/prototype.json", encode_points, decode_path),
+    Attachment("wisp.parting_line", "wisp/parting.json", encode_points, decode_line),
+    Attachment("wisp.painted_density", "wisp/density.png", encode_gray, decode_gray),
+    Attachment("wisp.painted_lengths", "wisp/lengths.png", encode_gray, decode_gray),
+    Attachment("wisp.painted_protrusion", "wisp/protrusion.png", encode_gray, decode_gray),
 )

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from ..head.scalp_settings import ScalpSettings
 from ..lcp.settings import DynamicsSettings, HairSettings, WindSettings
+from ..wisp.settings import HairColourSettings, WispSettings
 from .settings import Camera, HeadSettings, Look, MotionSettings
 
 
@@ -21,6 +22,8 @@ class Document:
     hair: HairSettings = field(default_factory=HairSettings)
     lcp: DynamicsSettings = field(default_factory=DynamicsSettings)
     wind: WindSettings = field(default_factory=WindSettings)
+    wisp: WispSettings = field(default_factory=WispSettings)
+    colour: HairColourSettings = field(default_factory=HairColourSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)
     look: Look = field(default_factory=Look)
     camera: Camera = field(default_factory=Camera)

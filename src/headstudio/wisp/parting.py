@@ -1,0 +1,95 @@
+"""A parting: a line on the scalp that hair leans away from, and that no wisp reaches across."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..head.mesh import Floats
+from ..head.scalp import Scalp
+from ..params import ParameterError
+from .settings import CurvePoints, WispSettings
+
+_LINES: Mapping[str, CurvePoints] = {
+    "none": (),
+    "centre": ((0.5, 0.0), (0.5, 0.42)),
+    "left": ((0.63, 0.0), (0.6, 0.22), (0.54, 0.42)),
+    "right": ((0.37, 0.0), (0.4, 0.22), (0.46, 0.42)),
+    "zigzag": ((0.5, 0.0), (0.54, 0.06), (0.46, 0.13), (0.54, 0.2), (0.46, 0.27), (0.54, 0.34), (0.5, 0.42)),
+}
+_SPACING = 0.001  # between the points that stand for the line [m]
+# Skin this near to the line is told apart by its side [m].
+_APART = 0.015
+
+
+@dataclass(frozen=True, eq=False)
+class Parting:
+    """A line on the skin as points [m], (k, 3), a millimetre apart, with unit vectors to its left on the skin, (k, 3).
+
+    reach: how far from the line hair leans away from it [m].
+    """
+
+    points: Floats
+    leftward: Floats
+    reach: float
+
+    @classmethod
+    def of(cls, scalp: Scalp, settings: WispSettings) -> Parting | None:
+        """The parting that the settings ask for, if any. Raises ParameterError for a drawn line that is none."""
+        line = np.array(settings.parting_line or _LINES[settings.parting], dtype=np.float64)
+        if len(line) == 0:
+            return None
+        if line.ndim != 2 or line.shape[1] != 2 or len(line) < 2 or not np.isfinite(line).all():
+            raise ParameterError("a parting is a line of two or more points (u, v)")
+        uv = _evenly(line, 400)
+        points = _evenly(scalp.points(uv), None)
+        along = np.gradient(points, axis=0)
+        leftward = np.cross(scalp.normals(scalp.locate(points)), along)
+        length = np.linalg.norm(leftward, axis=1, keepdims=True)
+        return cls(points, leftward / np.maximum(length, np.finfo(float).tiny), settings.parting_reach)
+
+    def detour(self, points: Floats) -> Floats:
+        """How far aside of the line points of the skin [m], (n, 3), are taken to be, in a fourth direction [m], (n,).
+
+        It keeps the two banks of the parting apart: across the line it jumps, and it is zero away from it. Who measures
+        distance in these four coordinates finds no neighbours on the other bank.
+        """
+        distance, index = self._tree.query(points, distance_upper_bound=_APART)
+        near = np.isfinite(distance)
+        result = np.zeros(len(points))
+        at = index[near]
+        side = np.sign(np.einsum("ij,ij->i", points[near] - self.points[at], self.leftward[at]))
+        result[near] = side * (_APART - distance[near])
+        return result
+
+    def lean(self, points: Floats, normals: Floats, flow: Floats) -> Floats:
+        """Unit directions along the skin in which hair lies, (n, 3): away from the line near it, ``flow`` far from it.
+
+        points: on the skin [m], normals: of the skin, flow: unit or zero, (n, 3) each.
+        """
+        distance, index = self._tree.query(points)
+        away = points - self.points[index]
+        away -= np.einsum("ij,ij->i", away, normals)[:, None] * normals
+        weight = np.exp(-((distance / self.reach) ** 2))[:, None]
+        return unit((1 - weight) * flow + weight * unit(away))
+
+    @property
+    def _tree(self) -> cKDTree:
+        return cKDTree(self.points)
+
+
+def unit(vectors: Floats) -> Floats:
+    """Vectors, (..., 3), at unit length; zero stays zero."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+
+
+def _evenly(line: Floats, count: int | None) -> Floats:
+    """Points along a polyline, (k, d), evenly spaced: ``count`` of them, or one a millimetre."""
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    wanted = count or max(int(length[-1] / _SPACING) + 1, 2)
+    at = np.linspace(0.0, length[-1], wanted)
+    return np.stack([np.interp(at, length, column) for column in line.T], axis=1)
