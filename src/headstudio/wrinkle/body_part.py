@@ -1,0 +1,111 @@
+"""Pieces of a skin that wrinkles are laid out on: a face, a whole head, whatever an artist selects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..head.head import Head
+from ..head.mesh import Ints, TriangleMesh
+from ..head.repair import face_components
+
+Mask = NDArray[np.bool_]
+
+# The face reaches this far below the chin and above the hairline, in heights of the head: neck lines, high foreheads.
+_NECK = 0.42
+_SCALP = 0.06
+# It ends this far in front of the ears [heights of the head].
+_BEFORE_EARS = 0.05
+# A whole head is opened at the crown, where no wrinkle is: a hole of this radius [heights of the head].
+_CROWN = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class BodyPart:
+    """A connected piece of a skin.
+
+    mesh: the piece, without loose vertices, n vertices, m triangles. vertices: where its vertices are in the skin, (n,);
+    a skin vertex may occur twice where texture coordinates are cut. faces: where its triangles are in the skin, (m,).
+    """
+
+    mesh: TriangleMesh
+    vertices: Ints
+    faces: Ints
+
+
+def body_part(skin: TriangleMesh, selected: Mask) -> BodyPart:
+    """The largest connected piece of the ``selected`` faces of a skin, (m,).
+
+    Triangles are dropped where only a vertex holds the piece together. Raises ValueError when nothing is selected.
+    """
+    if not selected.any():
+        raise ValueError("no triangle of the skin lies in this part of the body")
+    kept = _largest(skin, selected)
+    while True:
+        pinched = _pinched_faces(skin.faces, kept)
+        if not pinched.any():
+            break
+        kept = _largest(skin, kept & ~pinched)
+    return extract(skin, np.flatnonzero(kept))
+
+
+def extract(skin: TriangleMesh, faces: Ints) -> BodyPart:
+    """The faces with these indices, (m,), and only the vertices they use."""
+    vertices, compact = np.unique(skin.faces[faces], return_inverse=True)
+    uv = None if skin.corner_uv is None else skin.corner_uv[faces]
+    return BodyPart(TriangleMesh(skin.vertices[vertices], compact.reshape(-1, 3), uv), vertices, faces)
+
+
+def face_part(head: Head) -> BodyPart:
+    """The part of a head that carries expressive wrinkles: forehead to the front of the neck, ear to ear. A disc."""
+    marks = head.landmarks
+    height = marks.crown[1] - marks.chin[1]
+    ears = 0.5 * (marks.left_tragus + marks.right_tragus)
+    centres = head.skin.vertices[head.skin.faces].mean(axis=1)
+    level = (centres[:, 1] > marks.chin[1] - _NECK * height) & (centres[:, 1] < marks.hairline[1] + _SCALP * height)
+    return body_part(head.skin, level & (centres[:, 2] > ears[2] + _BEFORE_EARS * height))
+
+
+def head_part(head: Head) -> BodyPart:
+    """All the skin of a head but a small disc at the crown: with its open neck, a tube that maps to a cylinder."""
+    marks = head.landmarks
+    height = marks.crown[1] - marks.chin[1]
+    centres = head.skin.vertices[head.skin.faces].mean(axis=1)
+    at_crown = np.linalg.norm(centres - marks.crown, axis=1) < _CROWN * height
+    return body_part(head.skin, ~at_crown)
+
+
+def split_at_seams(skin: TriangleMesh) -> BodyPart:
+    """A skin cut open where its own texture coordinates are: every vertex has one (u, v).
+
+    Raises ValueError for a skin without texture coordinates.
+    """
+    if skin.corner_uv is None:
+        raise ValueError("this mesh has no texture coordinates of its own")
+    corners = np.column_stack([skin.faces.ravel(), np.round(skin.corner_uv.reshape(-1, 2), 7)])
+    _, first, compact = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    vertices = skin.faces.ravel()[first]
+    mesh = TriangleMesh(skin.vertices[vertices], compact.reshape(-1, 3), skin.corner_uv)
+    return BodyPart(mesh, vertices, np.arange(len(skin.faces)))
+
+
+def _largest(skin: TriangleMesh, selected: Mask) -> Mask:
+    """The piece of the selected faces that has the largest area, (m,)."""
+    chosen = np.flatnonzero(selected)
+    piece = face_components(skin.faces[chosen])
+    best = np.bincount(piece, skin.face_areas[chosen]).argmax()
+    kept = np.zeros(len(skin.faces), dtype=bool)
+    kept[chosen[piece == best]] = True
+    return kept
+
+
+def _pinched_faces(faces: Ints, kept: Mask) -> Mask:
+    """Kept faces at a vertex with more than one fan of kept faces around it, (m,)."""
+    half_edges = faces[kept][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    count = int(faces.max()) + 1
+    keys = half_edges @ [count, 1]
+    border = half_edges[~np.isin(keys, half_edges[:, ::-1] @ [count, 1])]
+    pinched = np.bincount(border[:, 0], minlength=count) > 1
+    return kept & pinched[faces].any(axis=1)

@@ -1,0 +1,206 @@
+"""A head whose face moves: muscles or expression units, then jaw, lids and tissue (Bando's thesis, section 2.5.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import sparse
+
+from ..head.head import Head, Landmarks, Part
+from ..head.mesh import Floats, Ints
+from .expressions import BLINK, EXPRESSIONS, JAW_OPEN, Expression
+from .face_settings import FaceSettings
+from .jaw import find_jaw
+from .lids import Lids, find_lids
+from .muscle_set import SIDES, place_muscles
+from .part_motion import EyeMotion, HairPartMotion, JawPartMotion
+from .tissue import TissueLift
+
+# Displacements below this [m] per unit of contraction are left out.
+_NEGLIGIBLE = 1e-6
+# On each side of the middle, muscles of both sides share the skin, within this part of the height of the head.
+_SHARED = 0.045
+# How much of the turn of an eye its lids follow.
+_UPPER_FOLLOWS, _LOWER_FOLLOWS = 0.8, 0.3
+_WIDEST_JAW = np.radians(26.0)
+_SHOWN = {**EXPRESSIONS, "blink": BLINK}
+
+
+@dataclass(frozen=True, eq=False)
+class FacePose:
+    """A face at one instant. positions: of every vertex of the skin [m], (n, 3). parts: those of the head, moved; a part
+    that rests is the head's own object."""
+
+    positions: Floats
+    parts: tuple[Part, ...]
+
+
+@dataclass(frozen=True)
+class _Drive:
+    """What one pose asks of jaw, lids and eyes; by side."""
+
+    jaw: float
+    upper: Mapping[str, float]
+    lower: Mapping[str, float]
+    gaze: Mapping[str, float]
+
+
+class Face:
+    """The face of one head; what depends on the head alone is made once. ``pose`` then takes some milliseconds."""
+
+    def __init__(self, head: Head) -> None:
+        self.head = head
+        self._rest = head.skin.vertices
+        self._columns, self._fields = _fields(head)
+        self._jaw = find_jaw(head)
+        self._jawed: Ints = np.nonzero(self._jaw.weight > 1e-4)[0]
+        eyes = [part for part in head.parts if part.kind == "eye" and part.axis is not None]
+        found = {_side_of(eye): find_lids(head.skin, head.landmarks, eye) for eye in eyes}
+        self._lids = {side: lids for side, lids in found.items() if lids is not None}
+        self._tissue = TissueLift(head.skin, self._faces_that_move())
+        self._motions = self._part_motions()
+
+    @property
+    def has_units(self) -> bool:
+        """Whether the head brings MakeHuman's expression units."""
+        return bool(self.head.expressions)
+
+    def pose(self, settings: FaceSettings, thickness: Floats | None = None) -> FacePose:
+        """The face as ``settings`` sets its sliders; a performance is not looked at, see ``FaceSettings.at``.
+
+        thickness: of the tissue under every vertex of the skin at rest [m], (n,); None leaves the skin unlifted.
+        """
+        strengths = {
+            (name, side): strength
+            for name in _SHOWN
+            for side in SIDES
+            if (strength := settings.strength(name, side)) > 0
+        }
+        drive = self._drive(strengths, settings.jaw_open)
+        positions = self._rest + (self._fields @ self._activity(strengths, settings.driver)).reshape(-1, 3)
+        if drive.jaw:
+            jawed = self._jawed
+            positions[jawed] = self._jaw.turned(positions[jawed], self._jaw.weight[jawed], drive.jaw)
+        for side, lids in self._lids.items():
+            turn = lids.turns(drive.upper[side], drive.lower[side])
+            positions[lids.vertices] = lids.turned(positions[lids.vertices], turn)
+        if thickness is not None and settings.tissue_lift > 0 and (strengths or drive.jaw):
+            positions = self._tissue.lifted(positions, settings.tissue_lift * thickness)
+        for lids in self._lids.values():
+            positions[lids.vertices] = lids.cleared(positions[lids.vertices])
+        return FacePose(positions, tuple(self._posed_part(k, positions, drive) for k in range(len(self.head.parts))))
+
+    def posed_head(self, pose: FacePose) -> Head:
+        """The head with the skin and parts of a pose."""
+        return replace(self.head, skin=self.head.skin.moved(pose.positions), parts=pose.parts)
+
+    def _activity(self, strengths: Mapping[tuple[str, str], float], driver: str) -> Floats:
+        """How strongly every field acts, (columns,)."""
+        by_units = {"muscles": 0.0, "units": 1.0, "both": 0.5}[driver] if self.has_units else 0.0
+        activity: dict[tuple[str, str, str], float] = {}
+        for (name, side), strength in strengths.items():
+            for muscle, amount in _SHOWN[name].contractions.items():
+                key = ("muscle", side, muscle)
+                activity[key] = activity.get(key, 0.0) + (1.0 - by_units) * strength * amount
+            for unit, amount in _SHOWN[name].units.items():
+                key = ("unit", side, unit.replace("SIDE", side))
+                activity[key] = activity.get(key, 0.0) + by_units * strength * amount
+        values = np.zeros(len(self._columns))
+        for key, amount in activity.items():
+            if key in self._columns:
+                values[self._columns[key]] = amount
+        return values
+
+    def _drive(self, strengths: Mapping[tuple[str, str], float], jaw_open: float) -> _Drive:
+        """Jaw, lids and eyes: the jaw opens as far as both sides ask for, lids and eyes each on their own side."""
+        shown: list[tuple[Expression, dict[str, float]]] = [
+            (expression, {side: strengths.get((name, side), 0.0) for side in SIDES})
+            for name, expression in _SHOWN.items()
+        ]
+        jaw = jaw_open * JAW_OPEN.jaw + sum(min(by_side.values()) * each.jaw for each, by_side in shown)
+        upper, lower, gaze = {}, {}, {}
+        for side in SIDES:
+            gaze[side] = sum(by_side[side] * each.gaze_down for each, by_side in shown)
+            upper[side] = sum(by_side[side] * each.upper_lid for each, by_side in shown)
+            lower[side] = sum(by_side[side] * each.lower_lid for each, by_side in shown)
+            if side in self._lids:
+                upper[side] += _UPPER_FOLLOWS * gaze[side] / self._lids[side].largest_fall
+                lower[side] -= _LOWER_FOLLOWS * gaze[side] / self._lids[side].largest_rise
+        return _Drive(min(jaw, _WIDEST_JAW), upper, lower, gaze)
+
+    def _posed_part(self, index: int, positions: Floats, drive: _Drive) -> Part:
+        motion = self._motions[index]
+        if isinstance(motion, EyeMotion):
+            return motion.posed(drive.gaze[_side_of(self.head.parts[index])])
+        if isinstance(motion, JawPartMotion):
+            return motion.posed(drive.jaw)
+        if isinstance(motion, HairPartMotion):
+            side = next((side for side, lids in self._lids.items() if lids is motion.lids), SIDES[0])
+            return motion.posed(positions, drive.upper[side], drive.lower[side])
+        return self.head.parts[index]
+
+    def _part_motions(self) -> list[EyeMotion | JawPartMotion | HairPartMotion | None]:
+        teeth = [part.mesh.vertices[:, 1] for part in self.head.parts if part.kind == "teeth"]
+        level = 0.5 * (min(each.min() for each in teeth) + max(each.max() for each in teeth)) if teeth else 0.0
+        left = self.head.landmarks.left_eye - self.head.landmarks.right_eye
+        left = left / np.linalg.norm(left)
+        motions: list[EyeMotion | JawPartMotion | HairPartMotion | None] = []
+        for part in self.head.parts:
+            if part.kind == "eye" and part.axis is not None:
+                motions.append(EyeMotion(part, left))
+            elif part.kind in ("teeth", "tongue"):
+                motions.append(JawPartMotion(part, self._jaw, level))
+            elif part.kind in ("lashes", "brows"):
+                motions.append(HairPartMotion(part, self.head, list(self._lids.values())))
+            else:
+                motions.append(None)
+        return motions
+
+    def _faces_that_move(self) -> Ints:
+        moved = np.asarray(abs(self._fields).sum(axis=1)).reshape(-1, 3).any(axis=1)
+        moved[self._jawed] = True
+        for lids in self._lids.values():
+            moved[lids.vertices] = True
+        faces: Ints = self.head.skin.faces[moved[self.head.skin.faces].any(axis=1)]
+        return faces
+
+
+def _fields(head: Head) -> tuple[dict[tuple[str, str, str], int], sparse.csr_array]:
+    """Displacements per unit of every muscle and expression unit on each side: columns by name, matrix (3 n, columns).
+
+    Near the middle both sides share the skin, with shares that add up to 1: so one side alone moves its own half, and
+    both together do no more in the middle than beside it.
+    """
+    share = _shares(head.skin.vertices, head.landmarks)
+    columns: dict[tuple[str, str, str], int] = {}
+    blocks = []
+    for (side, name), muscle in place_muscles(head.landmarks).items():
+        columns["muscle", side, name] = len(blocks)
+        blocks.append(share[side][:, None] * muscle.field(head.skin.vertices))
+    for name, unit in head.expressions.items():
+        offsets = np.zeros_like(head.skin.vertices)
+        offsets[unit.vertices] = unit.offsets
+        for side in SIDES:
+            columns["unit", side, name] = len(blocks)
+            blocks.append(share[side][:, None] * offsets)
+    stacked = [sparse.csr_array(np.where(np.abs(block) > _NEGLIGIBLE, block, 0.0).reshape(-1, 1)) for block in blocks]
+    return columns, sparse.csr_array(sparse.hstack(stacked))
+
+
+def _shares(points: Floats, marks: Landmarks) -> dict[str, Floats]:
+    """How far every point belongs to the left and to the right side, 0 to 1, adding up to 1, (n,) each."""
+    line = [marks.chin, 0.5 * (marks.mouth_left + marks.mouth_right), marks.nose_tip, marks.glabella, marks.hairline]
+    line.sort(key=lambda point: float(point[1]))
+    middle = np.interp(points[:, 1], [point[1] for point in line], [point[0] for point in line])
+    reach = _SHARED * float(marks.crown[1] - marks.chin[1])
+    part = np.clip(0.5 + 0.5 * (points[:, 0] - middle) / reach, 0.0, 1.0)
+    left = part * part * (3.0 - 2.0 * part)
+    return {"left": left, "right": 1.0 - left}
+
+
+def _side_of(eye: Part) -> str:
+    if eye.centre is None:
+        raise ValueError("an eye without a centre is on no side")
+    return "left" if eye.centre[0] > 0 else "right"

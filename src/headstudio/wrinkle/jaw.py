@@ -1,0 +1,143 @@
+"""The lower jaw: a hinge in front of the ears that takes chin, lower lip, lower teeth and tongue along.
+
+How much of its turn a point of the skin takes is 1 where the jawbone carries it and 0 where the skull does; between them
+it spreads over the surface as a harmonic function. Upper and lower lip meet in space and not on the surface, so a mouth
+that is open in the mesh parts, and one that is a groove stretches at the bottom of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import igl
+import numpy as np
+from scipy import sparse
+from scipy.ndimage import median_filter
+from scipy.sparse.linalg import splu
+from scipy.spatial.transform import Rotation
+
+from ..head.head import Head, Landmarks, Part
+from ..head.mesh import Floats, TriangleMesh
+from ..head.profile import seen_from
+
+# The hinge lies in front of the ear hole by this part of the height of the head.
+_HINGE_FORWARD = 0.05
+# Angles about the hinge [rad], down from it, beside where the lips meet: skull above, jaw below; and below the chin, where
+# the jaw ends and where the neck begins.
+_CHEEK = np.radians([-12.0, 10.0])
+_THROAT = np.radians([6.0, 34.0])
+# Skin nearer to the hinge than this part of the way to the chin slides over the jaw.
+_CARRIED_FROM = 0.55
+# While the mouth opens the joint glides forward, per radian, as a part of the height of the head.
+_GLIDE = 0.06
+# The seam between the lips is looked for within this part of the half width of the mouth, above and below the corners.
+_SEAM_REACH = 0.45
+_COLUMNS = 25
+_LEVELS = 61
+# What is hidden from the front by more than this [m] is no outside of a lip.
+_HIDDEN = 0.0008
+# Keeps pieces of the skin that touch neither bone where they are.
+_LOOSE = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Jaw:
+    """The hinge and who follows it.
+
+    hinge: a point on its axis, shape (3,) [m]. axis: unit direction of the axis to the person's left, shape (3,). glide:
+    how far the joint moves per radian, shape (3,) [m]. weight: share of the turn that every vertex of the skin takes, 0
+    to 1, shape (n,).
+    """
+
+    hinge: Floats
+    axis: Floats
+    glide: Floats
+    weight: Floats
+
+    def turned(self, points: Floats, weight: Floats, angle: float) -> Floats:
+        """Points, (k, 3), turned open by ``angle`` [rad] times their weight, (k,)."""
+        turn = Rotation.from_rotvec((angle * weight)[:, None] * self.axis)
+        opened: Floats = self.hinge + turn.apply(points - self.hinge) + (angle * weight)[:, None] * self.glide
+        return opened
+
+
+def find_jaw(head: Head) -> Jaw:
+    """The jaw of a head, from its landmarks and the seam between its lips."""
+    marks = head.landmarks
+    height = float(marks.crown[1] - marks.chin[1])
+    across = marks.left_tragus - marks.right_tragus
+    axis = across / np.linalg.norm(across)
+    forward = np.cross(axis, np.array([0.0, 1.0, 0.0]))
+    forward = forward / np.linalg.norm(forward)
+    hinge = 0.5 * (marks.left_tragus + marks.right_tragus) + _HINGE_FORWARD * height * forward
+    glide = _GLIDE * height * forward
+    return Jaw(hinge, axis, glide, _spread(head.skin, *_carried(head, hinge, axis)))
+
+
+def lip_seam(skin: TriangleMesh, marks: Landmarks) -> Floats:
+    """Where the lips meet as seen from the front: points (x, y) from the right corner to the left [m], (25, 2)."""
+    x = np.linspace(marks.mouth_right[0], marks.mouth_left[0], _COLUMNS)
+    share = np.linspace(0.0, 1.0, _COLUMNS)
+    corner = (1 - share) * marks.mouth_right[1] + share * marks.mouth_left[1]
+    reach = _SEAM_REACH * 0.5 * float(np.linalg.norm(marks.mouth_left - marks.mouth_right))
+    offset = np.linspace(-reach, reach, _LEVELS)
+    across = np.stack(np.broadcast_arrays(x[:, None], corner[:, None] + offset), axis=2)
+    depth = seen_from(skin, 2, 1.0, across.reshape(-1, 2)).reshape(_COLUMNS, _LEVELS)
+    # The lips meet in the deepest hollow between two bulges.
+    below = np.maximum.accumulate(depth, axis=1)
+    above = np.maximum.accumulate(depth[:, ::-1], axis=1)[:, ::-1]
+    hollow = np.minimum(below, above) - depth
+    found = np.where(hollow.max(axis=1) > 0, offset[hollow.argmax(axis=1)], 0.0)
+    found[[0, -1]] = 0.0
+    return np.stack([x, corner + median_filter(found, 5, mode="nearest")], axis=1)
+
+
+def lower_share(part: Part, jaw_level: float) -> Floats:
+    """Which vertices of teeth, (k,), belong to the lower jaw: those of the rows whose middle lies below a level [m]."""
+    pieces = igl.connected_components(igl.adjacency_matrix(part.mesh.faces))[1]
+    levels = np.bincount(pieces, part.mesh.vertices[:, 1]) / np.bincount(pieces)
+    return (levels[pieces] < jaw_level).astype(np.float64)
+
+
+def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Floats, Floats]:
+    """Which vertices the skull keeps, and which the jawbone takes along: two masks, (n,) each."""
+    marks, points = head.landmarks, head.skin.vertices
+    seam = lip_seam(head.skin, marks)
+    forward = np.cross(axis, np.array([0.0, 1.0, 0.0]))
+    away = points - hinge
+    ahead, down = away @ forward, -away[:, 1]
+    angle = np.arctan2(down, ahead)
+    mouth, chin = 0.5 * (marks.mouth_left + marks.mouth_right) - hinge, marks.chin - hinge
+    corner_angle = np.arctan2(-mouth[1], mouth @ forward)
+    chin_angle = np.arctan2(-chin[1], chin @ forward)
+    far = np.hypot(ahead, down) > _CARRIED_FROM * np.hypot(chin @ forward, chin[1])
+
+    skull = (ahead < 0) | (angle < corner_angle + _CHEEK[0]) | (angle > chin_angle + _THROAT[1])
+    jawbone = far & (angle > corner_angle + _CHEEK[1]) & (angle < chin_angle + _THROAT[0])
+    between = (points[:, 0] > seam[0, 0]) & (points[:, 0] < seam[-1, 0])
+    lips = between & (np.abs(angle - corner_angle) < _CHEEK[1]) & far
+    index = np.nonzero(lips)[0]
+    seen = seen_from(head.skin, 2, 1.0, points[index, :2])
+    outside = points[index, 2] > seen - _HIDDEN
+    over = points[index, 1] - np.interp(points[index, 0], seam[:, 0], seam[:, 1])
+    # Inside the mouth neither bone holds the skin: it hangs between the lips.
+    hidden = index[~outside]
+    skull[hidden] = jawbone[hidden] = False
+    skull[index[outside]] = over[outside] > 0
+    jawbone[index[outside]] = over[outside] <= 0
+    return skull, jawbone & ~skull
+
+
+def _spread(skin: TriangleMesh, skull: Floats, jawbone: Floats) -> Floats:
+    """The harmonic function that is 0 on one set of vertices and 1 on the other, smoothed at both ends, (n,)."""
+    ends = np.concatenate([skin.faces[:, [0, 1]], skin.faces[:, [1, 2]], skin.faces[:, [2, 0]]])
+    lengths = np.linalg.norm(skin.vertices[ends[:, 0]] - skin.vertices[ends[:, 1]], axis=1)
+    near = 1.0 / np.maximum(lengths, 0.02 * lengths.mean())
+    count = len(skin.vertices)
+    weights = sparse.coo_array((np.tile(near, 2), (ends.ravel("F"), ends[:, ::-1].ravel("F"))), shape=(count, count))
+    laplacian = (sparse.diags_array(weights.sum(axis=1) + _LOOSE * near.mean()) - weights).tocsr()
+    value = jawbone.astype(np.float64)
+    free = np.nonzero(~(skull | jawbone))[0]
+    rows = laplacian[free]
+    value[free] = splu(rows[:, free].tocsc()).solve(-rows @ value)
+    return value * value * (3.0 - 2.0 * value)

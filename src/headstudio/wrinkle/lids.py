@@ -1,0 +1,164 @@
+"""Eyelids: skin that turns about the middle of the eyeball, and never enters it.
+
+The opening is found by looking out of the eyeball, column by column. A lid turns about the axis of the eye that runs
+from side to side, which keeps its distance from the ball, and the skin beside it follows less and less.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from ..head.head import Landmarks, Part
+from ..head.locate import locator
+from ..head.mesh import Floats, Ints, TriangleMesh
+
+# What is met between these distances from the middle of the ball, in its radii, is a lid.
+_LID = (0.95, 1.8)
+# Lids turn as one up to this distance, and what is farther than the second rests.
+_THICK = (1.3, 2.0)
+# How far beyond its margin a lid takes skin along [rad], the upper and the lower one.
+_FOLLOWING = np.radians([42.0, 34.0])
+# Where closed lids meet: this part of the opening above the lower one.
+_MEETING = 0.28
+# Skin stays at least this far from the middle, if it was so at rest.
+_CLEAR = 1.05
+_COLUMNS = np.linspace(-0.98, 0.98, 50)
+_ANGLES = np.radians(np.linspace(-80.0, 80.0, 161))
+
+
+@dataclass(frozen=True, eq=False)
+class Lids:
+    """The lids of one eye.
+
+    centre: of the ball, shape (3,) [m]. left, up, forward: unit axes of the eye. vertices: those of the skin that lids
+    move or that lie near the ball, (k,). fall: how far down each of them turns when the upper lid closes, rise: how far
+    up when the lower one does [rad], (k,). clearance: how near to the centre each may come [m], (k,).
+    """
+
+    centre: Floats
+    left: Floats
+    up: Floats
+    forward: Floats
+    vertices: Ints
+    fall: Floats
+    rise: Floats
+    clearance: Floats
+
+    @property
+    def largest_fall(self) -> float:
+        """How far the upper lid turns to close, where the eye is open widest [rad]."""
+        return float(self.fall.max())
+
+    @property
+    def largest_rise(self) -> float:
+        """How far the lower lid turns to close, where the eye is open widest [rad]."""
+        return float(self.rise.max())
+
+    def turns(self, upper: float, lower: float) -> Floats:
+        """How far each vertex turns down [rad], (k,). upper, lower: 1 where the lids meet, 0 at rest, below 0 wider."""
+        return min(upper, 1.0) * self.fall - min(lower, 1.0) * self.rise
+
+    def turned(self, points: Floats, turn: Floats) -> Floats:
+        """Points, (k, 3), turned down about the middle of the eye by ``turn`` [rad], (k,)."""
+        away = points - self.centre
+        height, ahead = away @ self.up, away @ self.forward
+        sine, cosine = np.sin(turn), np.cos(turn)
+        change_up = (cosine - 1.0) * height - sine * ahead
+        change_ahead = (cosine - 1.0) * ahead + sine * height
+        return points + change_up[:, None] * self.up + change_ahead[:, None] * self.forward
+
+    def cleared(self, points: Floats) -> Floats:
+        """Points, (k, 3), pushed straight out of the ball where they have come too near."""
+        away = points - self.centre
+        distance = np.linalg.norm(away, axis=1)
+        scale = np.maximum(self.clearance / np.maximum(distance, 1e-9), 1.0)
+        return self.centre + scale[:, None] * away
+
+
+def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:
+    """The lids of an eye, or None where skin leaves no opening before it. ``eye`` has a centre and an axis."""
+    if eye.centre is None or eye.axis is None:
+        raise ValueError("lids are found around an eyeball, which has a centre and an axis")
+    left, up, forward = _axes(marks, eye.axis)
+    margins = _margins(skin, eye.centre, eye.radius, (left, up, forward))
+    if margins is None:
+        return None
+    upper, lower = margins
+    away = skin.vertices - eye.centre
+    distance = np.linalg.norm(away, axis=1)
+    ahead = away @ forward
+    near = np.nonzero((distance < _THICK[1] * eye.radius) & (ahead > -0.3 * eye.radius))[0]
+    away, distance, ahead = away[near], distance[near], ahead[near]
+    column = away @ left / np.maximum(distance, 1e-9)
+    angle = np.arctan2(away @ up, ahead)
+    top, bottom = np.interp(column, _COLUMNS, upper), np.interp(column, _COLUMNS, lower)
+    meeting = bottom + _MEETING * (top - bottom)
+    thick = _ramp((_THICK[1] - distance / eye.radius) / (_THICK[1] - _THICK[0]))
+    above = thick * _ramp(1.0 - (angle - top) / _FOLLOWING[0])
+    below = thick * _ramp(1.0 - (bottom - angle) / _FOLLOWING[1])
+    # A point in the opening itself (a caruncle, the floor of a slit) goes with the lid that it is nearer to.
+    is_upper = angle > 0.5 * (top + bottom)
+    return Lids(
+        eye.centre,
+        left,
+        up,
+        forward,
+        near,
+        fall=np.where(is_upper, above, 0.0) * (top - meeting),
+        rise=np.where(is_upper, 0.0, below) * (meeting - bottom),
+        clearance=np.where(distance < _LID[0] * eye.radius, 0.0, np.minimum(distance, _CLEAR * eye.radius)),
+    )
+
+
+def _axes(marks: Landmarks, axis: Floats) -> tuple[Floats, Floats, Floats]:
+    left = marks.left_eye - marks.right_eye
+    left = left - (left @ axis) * axis
+    left = left / np.linalg.norm(left)
+    return left, np.cross(axis, left), axis
+
+
+def _margins(
+    skin: TriangleMesh, centre: Floats, radius: float, axes: tuple[Floats, Floats, Floats]
+) -> tuple[Floats, Floats] | None:
+    """The angles of the upper and the lower margin in every column [rad], (50,) each; equal beside the opening."""
+    left, up, forward = axes
+    level = np.sqrt(1.0 - _COLUMNS**2)[:, None, None]
+    plane = np.sin(_ANGLES)[:, None] * up + np.cos(_ANGLES)[:, None] * forward
+    directions = (_COLUMNS[:, None, None] * left + level * plane).reshape(-1, 3)
+    starts = centre + _LID[0] * radius * directions
+    met = locator(skin).first_hit(starts, directions).reshape(len(_COLUMNS), len(_ANGLES))
+    is_open = met > (_LID[1] - _LID[0]) * radius
+    start, end = _longest_runs(is_open)
+    seen = np.nonzero(end > start)[0]
+    if len(seen) < 3:
+        return None
+    # The opening is the columns around the widest one; a gap beside it is none of its own.
+    widest = seen[(end - start)[seen].argmax()]
+    breaks = np.nonzero(np.diff(seen) > 1)[0]
+    piece = next(part for part in np.split(seen, breaks + 1) if widest in part)
+    lower = gaussian_filter1d(_ANGLES[start[piece]], 1.0, mode="nearest")
+    upper = gaussian_filter1d(_ANGLES[end[piece] - 1], 1.0, mode="nearest")
+    corners = 0.5 * (upper + lower)[[0, -1]]
+    inside = np.isin(np.arange(len(_COLUMNS)), piece)
+    beside = np.interp(np.arange(len(_COLUMNS)), piece[[0, -1]], corners)
+    tops, bottoms = beside.copy(), beside
+    tops[inside], bottoms[inside] = upper, lower
+    return tops, bottoms
+
+
+def _longest_runs(flags: Floats) -> tuple[Ints, Ints]:
+    """First and one past last index of the longest run of True in each row, (r,) each; equal where there is none."""
+    position = np.arange(flags.shape[1])
+    last_closed = np.maximum.accumulate(np.where(flags, -1, position), axis=1)
+    length = np.where(flags, position - last_closed, 0)
+    end = length.argmax(axis=1)
+    longest = length[np.arange(len(flags)), end]
+    return end + 1 - longest, np.where(longest > 0, end + 1, end + 1 - longest)
+
+
+def _ramp(part: Floats) -> Floats:
+    part = np.clip(part, 0.0, 1.0)
+    return part * part * (3.0 - 2.0 * part)

@@ -1,0 +1,61 @@
+"""A performance: expressions over time, by keyframes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+
+@dataclass(frozen=True)
+class Keyframe:
+    """What the face shows at one time. time: [s]. weights: (name of a slider, strength from 0 to 1) each; a slider that
+    is not named is at 0."""
+
+    time: float
+    weights: tuple[tuple[str, float], ...] = ()
+
+
+Performance = tuple[Keyframe, ...]
+
+
+def keyframe(time: float, weights: Mapping[str, float]) -> Keyframe:
+    """A keyframe with its sliders in alphabetical order, so that equal ones compare equal."""
+    return Keyframe(float(time), tuple(sorted((name, float(value)) for name, value in weights.items())))
+
+
+def check_performance(performance: Performance, sliders: tuple[str, ...]) -> Performance:
+    """Return ``performance`` if times rise and every weight is a slider's from 0 to 1. Raises ValueError, a phrase."""
+    times = [key.time for key in performance]
+    if not all(map(math.isfinite, times)) or any(later <= earlier for earlier, later in zip(times, times[1:])):
+        raise ValueError("has keyframes whose times do not rise")
+    for key in performance:
+        for name, value in key.weights:
+            if name not in sliders:
+                raise ValueError(f"moves a slider {name!r} that does not exist")
+            if not 0.0 <= value <= 1.0:
+                raise ValueError(f"moves {name} out of the range from 0 to 1")
+        if len({name for name, _ in key.weights}) < len(key.weights):
+            raise ValueError("sets a slider twice at one time")
+    return performance
+
+
+def weights_at(performance: Performance, time: float) -> dict[str, float]:
+    """The sliders that a performance moves, at ``time`` [s].
+
+    Smooth between keyframes, and never beyond them: a monotone cubic spline for each slider (Fritsch, Carlson 1980).
+    Before the first keyframe and after the last one they hold. An empty performance moves none.
+    """
+    names = sorted({name for key in performance for name, _ in key.weights})
+    if not names:
+        return {}
+    table = np.array([[dict(key.weights).get(name, 0.0) for name in names] for key in performance])
+    if len(performance) == 1:
+        values = table[0]
+    else:
+        times = np.array([key.time for key in performance])
+        values = PchipInterpolator(times, table)(np.clip(time, times[0], times[-1]))
+    return {name: float(value) for name, value in zip(names, np.clip(values, 0.0, 1.0))}
