@@ -38,7 +38,7 @@ def hair_tight_surface(head: Head) -> tuple[TriangleMesh, Floats]:
 
 def _voxels(skin: TriangleMesh) -> tuple[NDArray[np.bool_], Floats]:
     """The solid inside the skin as voxels, and the position of the first voxel's middle [m]."""
-    body = _standing(skin)
+    body = standing_on_floor(skin)
     margin = _BALL + 4 * _VOXEL
     origin = body.bounds[0] - margin
     shape = np.ceil((body.bounds[1] + margin - origin) / _VOXEL).astype(int)
@@ -50,7 +50,7 @@ def _voxels(skin: TriangleMesh) -> tuple[NDArray[np.bool_], Floats]:
     return ndimage.binary_fill_holes(shell), origin
 
 
-def _standing(mesh: TriangleMesh) -> TriangleMesh:
+def standing_on_floor(mesh: TriangleMesh) -> TriangleMesh:
     """``mesh`` with a wall from every border straight down to one floor: below a bust, the body goes on."""
     border = igl.boundary_facets(mesh.faces)[0]
     count = len(mesh.vertices)

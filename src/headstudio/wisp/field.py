@@ -1,0 +1,128 @@
+"""The styling force field Phi: which way hair is to flow at every place (Choe, Ko 2005, sections 3.1 and 6.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from ..head.mesh import Floats
+from .grid import Grid
+from .strands import Singles
+from .styling_settings import StylingSettings
+from .surroundings import Surroundings
+
+# Fields are smooth over the breadth of a lock, and an artist drags their weights: coarse nodes keep that quick [m].
+_SPACING = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class ForceField:
+    """Vectors at the nodes of a grid, (size, 3), looked up trilinearly."""
+
+    grid: Grid
+    vectors: Singles
+
+    def at(self, points: Floats) -> Singles:
+        """Phi at ``points`` [m], (k, 3): (k, 3)."""
+        return self.grid.value(self.vectors, points)
+
+
+@lru_cache(maxsize=4)
+def force_field(styling: StylingSettings, surroundings: Surroundings) -> ForceField:
+    """The weighted sum of the presets around a head."""
+    grid = Grid.over(surroundings.low, surroundings.high, _SPACING)
+    places = surroundings.proportions.measure(grid.nodes)
+    total = np.zeros((grid.size, 3))
+    for name, preset in PRESETS.items():
+        weight = getattr(styling, name)
+        if weight:
+            total += weight * preset(places, styling)
+    return ForceField(grid, total.astype(np.float32))
+
+
+def _along(places: Floats, x: float, y: float, z: float) -> Floats:
+    return np.broadcast_to(np.array([x, y, z]), places.shape)
+
+
+def _fade(value: Floats, start: float, end: float) -> Floats:
+    """1 before ``start``, 0 after ``end``, smooth between, as a column."""
+    part = np.clip((value - start) / (end - start), 0.0, 1.0)[:, None]
+    return 1.0 - part * part * (3.0 - 2.0 * part)
+
+
+def _gravity(places: Floats, styling: StylingSettings) -> Floats:
+    return _along(places, 0, -1, 0)
+
+
+def _back(places: Floats, styling: StylingSettings) -> Floats:
+    # Behind the head nothing pulls any more, so that what was combed back can fall.
+    return _fade(-places[:, 2], 0.7, 1.5) * _along(places, 0, 0, -1)
+
+
+def _forward(places: Floats, styling: StylingSettings) -> Floats:
+    return _fade(places[:, 2], 0.8, 1.3) * _along(places, 0, 0, 1)
+
+
+def _left(places: Floats, styling: StylingSettings) -> Floats:
+    return _fade(places[:, 0], 0.7, 1.6) * _along(places, 1, 0, 0)
+
+
+def _right(places: Floats, styling: StylingSettings) -> Floats:
+    return _fade(-places[:, 0], 0.7, 1.6) * _along(places, -1, 0, 0)
+
+
+def _up(places: Floats, styling: StylingSettings) -> Floats:
+    return _along(places, 0, 1, 0)
+
+
+def _spiky(places: Floats, styling: StylingSettings) -> Floats:
+    return places / np.maximum(np.linalg.norm(places, axis=1, keepdims=True), 0.3)
+
+
+def _blown(places: Floats, styling: StylingSettings) -> Floats:
+    # Gusts: slow waves across the wind, of lengths that never meet, lift some locks and press others down.
+    heading = styling.blown_heading
+    wind = np.array([np.sin(heading), 0.0, np.cos(heading)])
+    across = np.array([np.cos(heading), 0.0, -np.sin(heading)])
+    side, height, run = places @ across, places[:, 1], places @ wind
+    sway = 0.30 * np.sin(2.3 * height + 1.7 * run) + 0.2 * np.sin(3.7 * side - 2.9 * run + 1.0)
+    lift = 0.35 * np.sin(2.9 * side + 1.3 * run + 0.5) + 0.2 * np.sin(4.3 * height - 2.1 * run)
+    return wind + sway[:, None] * across + np.outer(0.25 + lift, [0.0, 1.0, 0.0])
+
+
+def _parted(places: Floats, styling: StylingSettings) -> Floats:
+    side = np.tanh((places[:, 0] - styling.parting) / 0.12)
+    on_top = 1.0 - _fade(places[:, 1], 0.1, 0.6)
+    return on_top * np.outer(side, [1.0, 0.0, 0.0])
+
+
+def _off_face(places: Floats, styling: StylingSettings) -> Floats:
+    side = np.tanh(places[:, 0] / 0.1)[:, None]
+    before_face = (1.0 - _fade(places[:, 2], 0.1, 0.7)) * _fade(np.abs(places[:, 0]), 0.95, 1.3)
+    below_brow = _fade(places[:, 1], 0.35, 0.9)
+    return before_face * below_brow * (side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))
+
+
+def _inward(places: Floats, styling: StylingSettings) -> Floats:
+    from_neck = places * np.array([1.0, 0.0, 1.0])
+    reach = np.linalg.norm(from_neck, axis=1, keepdims=True)
+    return -_fade(places[:, 1], -0.6, 0.0) * from_neck / np.maximum(reach, 0.5)
+
+
+PRESETS: dict[str, Callable[[Floats, StylingSettings], Floats]] = {
+    "gravity": _gravity,
+    "back": _back,
+    "forward": _forward,
+    "left": _left,
+    "right": _right,
+    "up": _up,
+    "spiky": _spiky,
+    "blown": _blown,
+    "parted": _parted,
+    "off_face": _off_face,
+    "inward": _inward,
+}
+"""The presets by the name of their weight; places are in proportions of the head, (k, 3), as are the vectors (k, 3)."""

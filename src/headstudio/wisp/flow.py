@@ -1,0 +1,161 @@
+"""Laying hair down segment by segment: the inner part of Choe, Ko 2005, Algorithm 1."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..head.mesh import Floats, Ints
+from .density import DensityField
+from .field import ForceField
+from .joints import bend_toward, joint_stiffness, most_aligned, turn, unit
+from .outlines import Outlines
+
+_BEND = math.radians(12)  # Delta theta of Algorithm 1
+_BENDS = 4  # so many before the least dense direction is taken
+_SLIDES = 2  # corrections of a segment that would run into the head
+
+# How far the middle of a wisp stays off the skin: a floor, and a part of its radius up to a bound [m].
+_CLEARANCE, _RADIUS_PART, _MOST_CLEARANCE = 0.0015, 0.3, 0.005
+
+
+@dataclass
+class Tally:
+    """What happened so far: segments laid, how many collided at first, how many still did after the last bend."""
+
+    laid: int = 0
+    colliding: int = 0
+    unresolved: int = 0
+
+
+class Flow:
+    """Hair that is being laid: every wisp has a current end, which a segment is added to.
+
+    frames: of all segments laid so far, as Outlines.frames. laid: how many segments each wisp has got, (W,).
+    ends: current ends [m], (W, 3).
+    """
+
+    def __init__(self, outlines: Outlines, density: DensityField, force: ForceField, kappa: float, tau: float) -> None:
+        self.outlines = outlines
+        self.frames = outlines.frames.copy()
+        self.laid = np.zeros(len(outlines.counts), dtype=np.int64)
+        self.ends = outlines.roots.copy()
+        self.tally = Tally()
+        self._turned = np.broadcast_to(np.eye(3), (len(self.laid), 3, 3)).copy()
+        self._density = density
+        self._force = force
+        self._tau = tau
+        self._kappa = joint_stiffness(kappa, outlines.segment)
+        self._amounts = outlines.strands * outlines.segment
+
+    def unfinished(self, wisps: Ints) -> Ints:
+        """Those of ``wisps`` that have segments left to lay."""
+        return wisps[self.laid[wisps] < self.outlines.counts[wisps]]
+
+    def pick_up(self, wisps: Ints) -> None:
+        """Take whole wisps back to their roots, and their hair out of the density field."""
+        longest = int(self.laid[wisps].max(initial=0))
+        ends = self.outlines.roots[wisps]
+        for joint in range(longest):
+            there = self.laid[wisps] > joint
+            frames = self.frames[wisps[there], joint]
+            middles = ends[there] + 0.5 * self.outlines.segment * frames[:, :, 2]
+            self._add(wisps[there], joint, middles, frames, -1.0)
+            ends[there] += self.outlines.segment * frames[:, :, 2]
+        self.laid[wisps] = 0
+        self.ends[wisps] = self.outlines.roots[wisps]
+        self._turned[wisps] = np.eye(3)
+
+    def styling_force(self, wisps: Ints) -> Floats:
+        """Phi at the ends of ``wisps``, (k, 3)."""
+        return self._force.at(self.ends[wisps]).astype(np.float64)
+
+    def lay(self, wisps: Ints, force: Floats, ceiling: Floats) -> None:
+        """Add one segment to each of ``wisps``, (k,), under ``force``, (k, 3); it collides above ``ceiling``, (k,)."""
+        joint = self.laid[wisps]
+        start = self.ends[wisps]
+        rest = self.outlines.frames[wisps, joint]
+        carried = self._turned[wisps] @ rest
+        straight = carried[:, :, 2]
+        clearance = self._clearance(wisps, joint)
+        direction = most_aligned(force, straight, self._kappa)
+        direction = self._slide(start, direction, clearance)
+        direction = self._make_room(start, direction, clearance, ceiling - self._density.added(self._amounts[wisps]))
+        frames = turn(carried, straight, direction)
+        self.frames[wisps, joint] = frames
+        self._turned[wisps] = frames @ rest.transpose(0, 2, 1)
+        self.ends[wisps] = start + self.outlines.segment * direction
+        self._add(wisps, joint, start + 0.5 * self.outlines.segment * direction, frames, 1.0)
+        self.laid[wisps] += 1
+        self.tally.laid += len(wisps)
+
+    def density_at_ends(self, wisps: Ints) -> Floats:
+        """rho at the ends of ``wisps``, (k,)."""
+        return self._density.at(self.ends[wisps])[0].astype(np.float64)
+
+    def result(self) -> Floats:
+        """The frames, with the padding behind every tip continuing the last segment."""
+        last = np.minimum(np.arange(self.frames.shape[1]), self.outlines.counts[:, None] - 1)
+        return np.take_along_axis(self.frames, last[:, :, None, None], axis=1)
+
+    def _clearance(self, wisps: Ints, joint: Ints) -> Floats:
+        """How far off the skin the end of the next segment stays [m], (k,)."""
+        radius = self.outlines.radii[wisps, joint + 1]
+        return np.minimum(_CLEARANCE + _RADIUS_PART * radius, _MOST_CLEARANCE)
+
+    def _slide(self, start: Floats, direction: Floats, clearance: Floats) -> Floats:
+        """Directions turned so that segments from ``start`` end no deeper than ``clearance`` [m]: hair slides along the head.
+
+        This is the bending along the density gradient for the head's part of the field, taken to the limit of small
+        angles: the steps of Delta theta would leave hair that lies on the head in zigzags.
+        """
+        segment = self.outlines.segment
+        distance, outward = self._skin(start + segment * direction)
+        low = np.flatnonzero(distance < clearance)
+        direction = direction.copy()
+        for _ in range(_SLIDES):
+            if len(low) == 0:
+                break
+            distance, outward = distance[low], outward[low]
+            rise = np.einsum("ij,ij->i", direction[low], outward)
+            wanted = np.clip(rise + (clearance[low] - distance) / segment, -1.0, 1.0)
+            along = unit(direction[low] - rise[:, None] * outward, otherwise=outward)
+            direction[low] = unit(
+                np.sqrt(1.0 - wanted**2)[:, None] * along + wanted[:, None] * outward, otherwise=outward
+            )
+            distance, outward = self._skin(start + segment * direction)
+            low = low[distance[low] < clearance[low] - 1e-4]
+        return direction
+
+    def _skin(self, points: Floats) -> tuple[Floats, Floats]:
+        distance, outward = self._density.surroundings.distance_and_gradient(points)
+        return distance.astype(np.float64), outward.astype(np.float64)
+
+    def _make_room(self, start: Floats, direction: Floats, clearance: Floats, ceiling: Floats) -> Floats:
+        """Directions bent along the density gradient while rho exceeds ``ceiling`` (eq. 6), and no more than _BENDS times."""
+        segment = self.outlines.segment
+        density, slope = self._density.at(start + 0.5 * segment * direction)
+        colliding = np.flatnonzero(density > ceiling)
+        self.tally.colliding += len(colliding)
+        bent, best, least = direction.copy(), direction.copy(), density.copy()
+        for _ in range(_BENDS):
+            if len(colliding) == 0:
+                break
+            away = unit(-slope.astype(np.float64), otherwise=bent)[colliding]
+            turned = bend_toward(bent[colliding], away, _BEND)
+            bent[colliding] = self._slide(start[colliding], turned, clearance[colliding])
+            here, slope_here = self._density.at(start[colliding] + 0.5 * segment * bent[colliding])
+            slope[colliding] = slope_here
+            better = here < least[colliding]
+            least[colliding[better]] = here[better]
+            best[colliding[better]] = bent[colliding[better]]
+            colliding = colliding[here > ceiling[colliding]]
+        self.tally.unresolved += len(colliding)
+        return best
+
+    def _add(self, wisps: Ints, joint: Ints | int, middles: Floats, frames: Floats, sign: float) -> None:
+        across = frames[:, :, :2].transpose(0, 2, 1)
+        radii = self.outlines.radii[wisps, joint]
+        self._density.add(middles, across, radii, sign * self._amounts[wisps])

@@ -1,0 +1,149 @@
+"""What hair lies on and hangs beside: the body as signed distances, and the space where hair may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ..head.hair_tight import standing_on_floor
+from ..head.head import Head
+from ..head.locate import Locator
+from ..head.mesh import Floats, TriangleMesh
+from ..head.sampling import sample_surface
+from .grid import Grid
+from .proportions import Proportions
+from .strands import Singles
+
+_VOXEL = 0.0035  # of the signed distances [m]
+_BAND = 2.0  # how far from the skin distances are exact, in voxels
+_MARGIN = 0.02  # of the grid around the body [m]
+_FOLD = 0.014  # radius of the ball that does not get into a fold of the face [m]
+_REACH = 0.32  # how far hair may stand off the body or hang below the bust [m]
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings:
+    """The space around a head, built once for it.
+
+    skin_grid: nodes of the signed distances. distances: from every node to the skin [m], negative inside, (size,).
+    proportions: the frame of the skull. low, high: corners of the box where hair may be [m], (3,).
+    """
+
+    skin_grid: Grid
+    distances: Singles
+    proportions: Proportions
+    low: Floats
+    high: Floats
+
+    @classmethod
+    def around(cls, head: Head) -> Surroundings:
+        """Measure the space around ``head``. Below the bust the body is taken to go straight down."""
+        body = standing_on_floor(head.skin)
+        grid = Grid.over(body.bounds[0] - _MARGIN, body.bounds[1] + _MARGIN, _VOXEL)
+        distances = _signed_distances(body, grid)
+        proportions = Proportions.of(head.landmarks)
+        _close_face(distances.reshape(grid.shape), grid, proportions)
+        low, high = head.skin.bounds[0] - _REACH, head.skin.bounds[1] + _REACH
+        return cls(grid, distances.astype(np.float32), proportions, low, high)
+
+    def distance(self, points: Floats | Singles) -> Singles:
+        """Signed distance to the skin [m], negative below it, (k,), at ``points`` [m], (k, 3)."""
+        return self.skin_grid.value(self.distances, points)
+
+    def gradient(self, points: Floats | Singles) -> Singles:
+        """Unit direction that leads away from the skin, (k, 3), at ``points`` [m], (k, 3)."""
+        return self.distance_and_gradient(points)[1]
+
+    def distance_and_gradient(self, points: Floats | Singles) -> tuple[Singles, Singles]:
+        """Both at once: (k,) [m] and unit vectors, (k, 3)."""
+        distance, gradient = self.skin_grid.value_and_gradient(self.distances, points)
+        length = np.sqrt(np.einsum("ij,ij->i", gradient, gradient))
+        return distance, gradient / np.maximum(length, np.float32(1e-6))[:, None]
+
+    def keep_outside(self, points: Singles, margin: float) -> Singles:
+        """``points`` [m], float32, (k, 3), with those nearer to the skin than ``margin`` [m] moved straight out to it.
+
+        Points are moved in place, and returned. Millions of points are sorted out by one look at a table of places that
+        may be too near; only those few are measured.
+        """
+        near = np.flatnonzero(self._may_be_nearer(margin)[self._nearest_nodes(points)])
+        for _ in range(_PUSHES):
+            distance, gradient = self.distance_and_gradient(points[near])
+            too_near = distance < margin
+            near, distance, gradient = near[too_near], distance[too_near], gradient[too_near]
+            if len(near) == 0:
+                break
+            # A little farther than needed: the field is bent between nodes, and another round costs more.
+            points[near] += (np.float32(margin + 1e-4) - distance)[:, None] * gradient
+        return points
+
+    def _nearest_nodes(self, points: Singles) -> NDArray[np.int32]:
+        """Number of the node next to each point, (k,)."""
+        grid = self.skin_grid
+        number = np.zeros(len(points), dtype=np.int32)
+        for axis in range(3):
+            # One axis after the other: a third of the memory traffic, which is all this costs.
+            step = points[:, axis] * np.float32(1 / grid.spacing)
+            step += np.float32(0.5 - grid.origin[axis] / grid.spacing)
+            np.clip(step, 0, grid.shape[axis] - 1, out=step)
+            number *= grid.shape[axis]
+            number += step.astype(np.int32)
+        return number
+
+    def _may_be_nearer(self, margin: float) -> NDArray[np.bool_]:
+        """Per node: whether a point that rounds to it may be nearer to the skin than ``margin``."""
+        if margin not in self._near_tables:
+            self._near_tables[margin] = self.distances < margin + np.sqrt(0.75) * self.skin_grid.spacing
+        return self._near_tables[margin]
+
+    @cached_property
+    def _near_tables(self) -> dict[float, NDArray[np.bool_]]:
+        return {}
+
+
+# How often a point is pushed. Where the skin folds (behind an ear) the way out bends.
+_PUSHES = 8
+
+
+def _signed_distances(body: TriangleMesh, grid: Grid) -> Floats:
+    """Signed distance of every node to a closed surface [m]: exact in a band around it, beyond it to about a voxel."""
+    points, _ = sample_surface(body, spacing=0.4 * grid.spacing)
+    index = np.round((points - grid.origin) / grid.spacing).astype(int)
+    away = np.ones(grid.shape, dtype=bool)
+    away[tuple(index.T)] = False
+    rough = ndimage.distance_transform_edt(away)
+    band = np.flatnonzero(rough.ravel() <= _BAND)
+    # What the band cuts off from the far corner of the grid lies inside.
+    parts, _ = ndimage.label(rough > _BAND)
+    distances = np.where(parts == parts[-1, -1, -1], rough, -rough).ravel() * grid.spacing
+    distances[band] = _exact(body, grid.nodes[band])
+    return distances
+
+
+def _close_face(distances: Floats, grid: Grid, proportions: Proportions) -> None:
+    """Close what a ball does not get into on the face, in place: sockets, lids, nostrils and lips are no place for hair.
+
+    As ``hair_tight_surface`` does for simulated hair, but not around the ears: behind them hair is rooted.
+    """
+    low, high = proportions.place(np.array([[-0.85, -1.9, 0.35], [0.85, 0.55, 1.5]]))
+    start = np.maximum(np.floor((low - grid.origin) / grid.spacing).astype(int), 0)
+    end = np.ceil((high - grid.origin) / grid.spacing).astype(int) + 1
+    face = tuple(slice(a, b) for a, b in zip(start, end))
+    grown = distances[face] <= _FOLD
+    # Half a voxel less, so that an open and even surface stays where it is.
+    closed = _FOLD - (ndimage.distance_transform_edt(grown) - 0.5) * grid.spacing
+    folds = grown & (closed < distances[face] - grid.spacing)
+    distances[face][folds] = closed[folds]
+
+
+def _exact(body: TriangleMesh, points: Floats) -> Floats:
+    """Signed distance to the surface [m], (k,): the side is that of the normal, interpolated to the nearest point."""
+    nearest, distance = Locator(body.vertices, body.faces).nearest(points)
+    closest = nearest.blend(body.vertices, body.faces)
+    normals = nearest.blend(body.vertex_normals, body.faces)
+    below = np.einsum("ij,ij->i", points - closest, normals) < 0
+    return np.where(below, -distance, distance)
