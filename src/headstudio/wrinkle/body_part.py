@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.head import Head
-from ..head.mesh import Ints, TriangleMesh
+from ..head.locate import Locator
+from ..head.mesh import Floats, Ints, TriangleMesh
+from ..head.parts import joined
 from ..head.repair import face_components
 
 Mask = NDArray[np.bool_]
@@ -20,6 +22,10 @@ _SCALP = 0.06
 _BEFORE_EARS = 0.05
 # A whole head is opened at the crown, where no wrinkle is: a hole of this radius [heights of the head].
 _CROWN = 0.1
+# Rays that tell what is open to the air: directions, the least cosine to the normal, how far above the skin they start [m].
+_DIRECTIONS = 60
+_GRAZING = 0.25
+_RAY_START = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +57,36 @@ def body_part(skin: TriangleMesh, selected: Mask) -> BodyPart:
     return extract(skin, np.flatnonzero(kept))
 
 
+def open_to_air(head: Head) -> Mask:
+    """The faces of a head's skin that light reaches, (m,): not the inside of mouth, nostrils and eye sockets.
+
+    A face counts when a straight way out of the head, past eyes and teeth too, leads from each of its corners.
+    """
+    skin = head.skin
+    everything = joined(
+        [TriangleMesh(mesh.vertices, mesh.faces) for mesh in (skin, *(part.mesh for part in head.parts))]
+    )
+    rays = Locator(everything.vertices, everything.faces)
+    normals = skin.vertex_normals
+    starts = skin.vertices + _RAY_START * normals
+    hidden = np.arange(len(skin.vertices))
+    for direction in _fibonacci_sphere(_DIRECTIONS):
+        facing = hidden[normals[hidden] @ direction > _GRAZING]
+        way = rays.first_hit(starts[facing], np.broadcast_to(direction, (len(facing), 3)).copy())
+        hidden = np.setdiff1d(hidden, facing[np.isinf(way)])
+    dark = np.zeros(len(skin.vertices), dtype=bool)
+    dark[hidden] = True
+    return ~dark[skin.faces].any(axis=1)
+
+
+def _fibonacci_sphere(count: int) -> Floats:
+    """Directions spread evenly over the sphere, (count, 3)."""
+    height = 1 - (2 * np.arange(count) + 1) / count
+    angle = np.arange(count) * np.pi * (3 - np.sqrt(5))
+    across = np.sqrt(1 - height**2)
+    return np.stack([across * np.sin(angle), height, across * np.cos(angle)], axis=1)
+
+
 def extract(skin: TriangleMesh, faces: Ints) -> BodyPart:
     """The faces with these indices, (m,), and only the vertices they use."""
     vertices, compact = np.unique(skin.faces[faces], return_inverse=True)
@@ -65,7 +101,7 @@ def face_part(head: Head) -> BodyPart:
     ears = 0.5 * (marks.left_tragus + marks.right_tragus)
     centres = head.skin.vertices[head.skin.faces].mean(axis=1)
     level = (centres[:, 1] > marks.chin[1] - _NECK * height) & (centres[:, 1] < marks.hairline[1] + _SCALP * height)
-    return body_part(head.skin, level & (centres[:, 2] > ears[2] + _BEFORE_EARS * height))
+    return body_part(head.skin, open_to_air(head) & level & (centres[:, 2] > ears[2] + _BEFORE_EARS * height))
 
 
 def head_part(head: Head) -> BodyPart:
@@ -74,7 +110,7 @@ def head_part(head: Head) -> BodyPart:
     height = marks.crown[1] - marks.chin[1]
     centres = head.skin.vertices[head.skin.faces].mean(axis=1)
     at_crown = np.linalg.norm(centres - marks.crown, axis=1) < _CROWN * height
-    return body_part(head.skin, ~at_crown)
+    return body_part(head.skin, open_to_air(head) & ~at_crown)
 
 
 def split_at_seams(skin: TriangleMesh) -> BodyPart:

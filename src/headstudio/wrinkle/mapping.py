@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from ..head.head import Head
 from ..head.mesh import Floats, TriangleMesh
 from ..head.repair import face_components
 from .body_part import BodyPart, face_part, head_part
-from .one_to_one import Distortion, distortion, why_not_one_to_one
+from .one_to_one import why_not_one_to_one
 from .projection import Layout, TextureMapError, project_on_plane, roll_off_cylinder
 from .relaxation import relax as relax_springs
 from .texture_map import TextureMap
@@ -22,15 +21,6 @@ METHODS = ("planar", "cylindrical", "uv")
 _MARGIN = 0.02
 
 
-@dataclass(frozen=True, eq=False)
-class Mapping:
-    """A texture map, how it was found and how much it distorts."""
-
-    map: TextureMap
-    distortion: Distortion
-    note: str
-
-
 def map_to_texture(
     mesh: TriangleMesh,
     method: str = "planar",
@@ -39,7 +29,7 @@ def map_to_texture(
     toward: Floats | None = None,
     axis: Floats | None = None,
     along: Floats | None = None,
-) -> Mapping:
+) -> TextureMap:
     """Lay a body part out in the unit square, one to one and with its topology kept.
 
     mesh: one connected piece with a border (a face, a limb); see body_part.py for cutting one out. method: "planar"
@@ -70,15 +60,15 @@ def map_to_texture(
     return _fitted(mesh, layout, note)
 
 
-@cache
-def map_face(head: Head) -> tuple[BodyPart, Mapping]:
+@lru_cache(maxsize=2)
+def map_face(head: Head) -> tuple[BodyPart, TextureMap]:
     """The face of a head, rolled off a cylinder about the skull and relaxed."""
     part = face_part(head)
     return part, map_to_texture(part.mesh, "cylindrical", axis=_skull_axis(head))
 
 
-@cache
-def map_head(head: Head) -> tuple[BodyPart, Mapping]:
+@lru_cache(maxsize=2)
+def map_head(head: Head) -> tuple[BodyPart, TextureMap]:
     """All the skin of a head but the crown, rolled off a cylinder; the seam runs down behind and wraps around."""
     part = head_part(head)
     return part, map_to_texture(part.mesh, "cylindrical", axis=_skull_axis(head))
@@ -89,7 +79,7 @@ def _skull_axis(head: Head) -> Floats:
     return np.array([0.0, ears[1], ears[2]])
 
 
-def _fitted(mesh: TriangleMesh, layout: Layout, note: str) -> Mapping:
+def _fitted(mesh: TriangleMesh, layout: Layout, note: str) -> TextureMap:
     """The layout moved and scaled into the square, angles kept where they can be."""
     low, high = layout.places.min(axis=0), layout.places.max(axis=0)
     room = 1.0 - 2.0 * _MARGIN
@@ -109,10 +99,10 @@ def _fitted(mesh: TriangleMesh, layout: Layout, note: str) -> Mapping:
         turns = layout.turns
     corners = uv[mesh.faces]
     corners[..., 0] += turns
-    return _mapping(mesh, uv, corners, wrapped=layout.period > 0, note=note)
+    return _texture_map(mesh, uv, corners, wrapped=layout.period > 0, note=note)
 
 
-def _own_coordinates(mesh: TriangleMesh) -> Mapping:
+def _own_coordinates(mesh: TriangleMesh) -> TextureMap:
     if mesh.corner_uv is None:
         raise TextureMapError("this mesh has no texture coordinates of its own")
     uv = np.empty((len(mesh.vertices), 2))
@@ -126,11 +116,11 @@ def _own_coordinates(mesh: TriangleMesh) -> Mapping:
     if trouble:
         raise TextureMapError(f"the mesh's own texture coordinates are not one to one: {trouble}")
     uv = np.minimum(uv, np.nextafter(1.0, 0.0))
-    return _mapping(mesh, uv, uv[mesh.faces], wrapped=False, note="the mesh's own texture coordinates")
+    return _texture_map(mesh, uv, uv[mesh.faces], wrapped=False, note="the mesh's own texture coordinates")
 
 
-def _mapping(mesh: TriangleMesh, uv: Floats, corners: Floats, *, wrapped: bool, note: str) -> Mapping:
+def _texture_map(mesh: TriangleMesh, uv: Floats, corners: Floats, *, wrapped: bool, note: str) -> TextureMap:
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     covered = 0.5 * np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]).sum()
     metres = float(np.sqrt(mesh.face_areas.sum() / covered))
-    return Mapping(TextureMap(mesh, uv, corners, metres, wrapped), distortion(mesh, corners), note)
+    return TextureMap(mesh, uv, corners, metres, wrapped, note)

@@ -14,7 +14,8 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.repair import face_components
-from .projection import Layout, border_cycles, loop_steps, winding
+from .projection import Layout, border_cycles, loop_steps
+from .texture_map import TextureMap
 
 
 @dataclass(frozen=True)
@@ -68,10 +69,11 @@ def why_not_one_to_one(mesh: TriangleMesh, layout: Layout) -> str | None:
     return None
 
 
-def distortion(mesh: TriangleMesh, corners: Floats) -> Distortion:
-    """Distortion figures of a map whose triangles lie at ``corners``, (m, 3, 2)."""
+def distortion(texture_map: TextureMap) -> Distortion:
+    """Distortion figures of a map."""
+    mesh = texture_map.mesh
     shares = mesh.face_areas / mesh.face_areas.sum()
-    metric = face_metrics(mesh, corners)
+    metric = face_metrics(mesh, texture_map.corner_uv)
     trace, determinant = metric[:, 0, 0] + metric[:, 1, 1], np.linalg.det(metric)
     root = np.sqrt(np.maximum(trace**2 / 4 - determinant, 0.0))
     stretch = np.sqrt((trace / 2 + root) / np.maximum(trace / 2 - root, np.finfo(float).tiny))
@@ -124,7 +126,9 @@ def _crossings(layout: Layout, cycles: list[Ints]) -> int:
     pairs = cKDTree(start + step / 2).query_pairs(reach, output_type="ndarray")
     joined = (ends[pairs[:, 0]][:, :, None] == ends[pairs[:, 1]][:, None, :]).any(axis=(1, 2))
     a, b = pairs[~joined].T
-    return int((_opposite(start[a], step[a], start[b], step[b]) & _opposite(start[b], step[b], start[a], step[a])).sum())
+    return int(
+        (_opposite(start[a], step[a], start[b], step[b]) & _opposite(start[b], step[b], start[a], step[a])).sum()
+    )
 
 
 def _opposite(start: Floats, step: Floats, other: Floats, other_step: Floats) -> np.ndarray:

@@ -42,10 +42,7 @@ def border_cycles(faces: Ints) -> list[Ints]:
     loops = [np.array(loop, dtype=np.int64) for loop in igl.boundary_loop_all(np.ascontiguousarray(faces))]
     half_edges = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
     known = half_edges @ [int(faces.max()) + 1, 1]
-    return [
-        loop if np.isin(loop[0] * (int(faces.max()) + 1) + loop[1], known) else loop[::-1]
-        for loop in loops
-    ]
+    return [loop if np.isin(loop[0] * (int(faces.max()) + 1) + loop[1], known) else loop[::-1] for loop in loops]
 
 
 def project_on_plane(mesh: TriangleMesh, toward: Floats | None = None) -> Layout:

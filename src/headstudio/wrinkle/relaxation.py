@@ -39,7 +39,10 @@ def relax(mesh: TriangleMesh, layout: Layout) -> Relaxed:
     Raises TextureMapError when the triangles are so thin that rounding defeats even the safe form.
     """
     filled, turns = _with_holes_filled(mesh, layout)
-    solvers = {"harmonic": _solver(filled, turns, harmonic_weights), "mean value": _solver(filled, turns, mean_value_weights)}
+    solvers = {
+        "harmonic": _solver(filled, turns, harmonic_weights),
+        "mean value": _solver(filled, turns, mean_value_weights),
+    }
     cycles = _fixed_cycles(mesh, layout)
     fixed = np.concatenate(cycles)
     for smoothing in _SMOOTHINGS:
@@ -117,7 +120,9 @@ def _fan_turns(layout: Layout, cycle: Ints) -> Ints:
     if not layout.period:
         return np.zeros((len(cycle), 3), dtype=np.int64)
     walked = np.cumsum(loop_steps(layout, cycle)[:, 0])
-    turn = np.rint((layout.places[cycle[0], 0] + np.concatenate([[0.0], walked[:-1]]) - layout.places[cycle, 0]) / layout.period)
+    turn = np.rint(
+        (layout.places[cycle[0], 0] + np.concatenate([[0.0], walked[:-1]]) - layout.places[cycle, 0]) / layout.period
+    )
     turn = turn.astype(np.int64)
     return np.stack([np.roll(turn, -1), turn, np.zeros_like(turn)], axis=1)
 
@@ -139,7 +144,10 @@ def _less_concave(layout: Layout, vertices: Floats, cycle: Ints, smoothing: floa
     # Evenly spaced samples have a Fourier series; the smoothed one is read at the vertices.
     count = 4 * len(cycle)
     even = np.arange(count) / count
-    wave = np.fft.fft(sum(unit * np.interp(even, part, walked[:, k], period=1.0) for k, unit in ((0, 1.0), (1, 1j)))) / count
+    wave = (
+        np.fft.fft(sum(unit * np.interp(even, part, walked[:, k], period=1.0) for k, unit in ((0, 1.0), (1, 1j))))
+        / count
+    )
     number = np.fft.fftfreq(count, 1.0 / count)
     # The base shape is kept: the place of a loop, and its first wave where that is a circle run through the right way.
     base = (number == 0) | ((number == 1) & (turns == 0))
@@ -153,5 +161,7 @@ def _whole_turns(layout: Layout, cycle: Ints) -> Floats:
     """What makes a border one unbroken line when it is walked from its first vertex, (k, 2)."""
     if not layout.period:
         return np.zeros((len(cycle), 2))
-    walked = layout.places[cycle[0]] + np.concatenate([np.zeros((1, 2)), np.cumsum(loop_steps(layout, cycle)[:-1], axis=0)])
+    walked = layout.places[cycle[0]] + np.concatenate(
+        [np.zeros((1, 2)), np.cumsum(loop_steps(layout, cycle)[:-1], axis=0)]
+    )
     return walked - layout.places[cycle]

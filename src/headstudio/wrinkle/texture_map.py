@@ -15,6 +15,7 @@ class TextureMap:
     corner, (m, 3, 2); the same as ``uv`` except in triangles that cross the seam of a cylindrical map, whose corners left
     of the seam have 1 added to u: so every triangle is whole, and u wraps around. metres: edge of the unit square on the
     skin, so that d [m] on the skin is about d / metres in the square. wrapped: whether u wraps around.
+    note: how the map was found, for the user.
     """
 
     mesh: TriangleMesh
@@ -22,3 +23,4 @@ class TextureMap:
     corner_uv: Floats
     metres: float
     wrapped: bool
+    note: str = ""
