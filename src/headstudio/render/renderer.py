@@ -11,8 +11,10 @@ from ..scene.stage import Stage
 from .body import Body, BodyPrograms
 from .hair import Hair, HairPrograms
 from .overlays import OverlayPass
+from .fibre import Fibre, colour_absorption
 from .scene_block import SCENE_DTYPE, linear, scene_block
 from .screen import ScreenPasses
+from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
 from .timing import StageTimer
 from .view import View, camera_view, light_view
@@ -30,11 +32,13 @@ class Renderer:
         self.timer = StageTimer(context)
         self._body_programs = BodyPrograms(context)
         self._hair_programs = HairPrograms(context)
+        self._strand_programs = StrandPrograms(context)
         self._overlays = OverlayPass(context)
         self._screens = ScreenPasses(context, "distance", "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | None = None
         self._hair: Hair | None = None
+        self._strands: StrandHair | None = None
         self._maps: LightTargets | None = None
         self._targets: PictureTargets | None = None
 
@@ -84,15 +88,18 @@ class Renderer:
         timer.start()
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
+            strands = self._pull_strands(stage, look)
             maps = self._maps_for(look.shadow_size)
             width, height = targets.size
-            view, light = camera_view(camera, width / height), self._light(stage, look, hair)
+            view, light = camera_view(camera, width / height), self._light(stage, look, hair, strands)
             self._scene_block.write(scene_block(view, light, stage.frame, look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
         with timer.stage("shadow"):
             self._cast_shadows(body if look.show_head else None, look, maps)
         with timer.stage("light"):
             self._shed_light(hair, light, look, maps)
+            if strands is not None:
+                strands.shed_light(light, stage.frame, maps, look.shadow_size)
         maps.depth.use(0)
         maps.map.use(1)
         self._hair_programs.strands.use(2)
@@ -101,6 +108,9 @@ class Renderer:
         if hair is not None:
             with timer.stage("hair"):
                 self._draw_hair(hair, view, look, targets)
+        if strands is not None:
+            with timer.stage("strands"):
+                self._draw_strands(strands, stage, view, look, targets, maps)
         with timer.stage("overlays"), self.context.scope(targets.scene, moderngl.PROGRAM_POINT_SIZE):
             self._overlays.draw(stage.overlays)
         with timer.stage("develop"):
@@ -118,12 +128,22 @@ class Renderer:
         self._hair.place(hair, stage.frame, look)
         return self._body, self._hair
 
-    def _light(self, stage: Stage, look: Look, hair: Hair | None) -> View:
+    def _pull_strands(self, stage: Stage, look: Look) -> StrandHair | None:
+        if stage.strands is None or stage.strands.count == 0 or not look.show_hair:
+            return None
+        known = self._strands
+        if known is None or not known.suits(stage.strands, look.strands_shown):
+            self._strands = StrandHair(self.context, self._strand_programs, stage.strands, look.strands_shown)
+        return self._strands
+
+    def _light(self, stage: Stage, look: Look, hair: Hair | None, strands: StrandHair | None) -> View:
         low, high = stage.head.skin.bounds
         centre = (low + high) / 2 + stage.frame.translation
         radius = float(np.linalg.norm(high - low)) / 2
         if hair is not None and hair.curves is not None:
             radius = max(radius, float(np.linalg.norm(hair.curves.position - centre, axis=1).max()))
+        if strands is not None:
+            radius = max(radius, strands.reach + float(np.linalg.norm(centre - stage.frame.translation)))
         # In steps, so that the texels of the maps do not creep over the head as the hair moves.
         return light_view(look, centre, np.ceil(radius / 0.02) * 0.02)
 
@@ -155,6 +175,17 @@ class Renderer:
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             hair.draw(view, look, targets.distance)
 
+    def _draw_strands(
+        self, strands: StrandHair, stage: Stage, view: View, look: Look, targets: PictureTargets, maps: LightTargets
+    ) -> None:
+        maps.depth.use(0)
+        maps.map.use(1)
+        strands.shade(strand_material(look))
+        with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
+            targets.scene.depth_mask = False
+            self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            strands.draw_blended(view, stage.frame, targets.scene.height)
+
     def _develop_picture(self, look: Look, targets: PictureTargets) -> None:
         width, height = targets.size
         if targets.supersampling > 1:
@@ -176,3 +207,10 @@ class Renderer:
         if self._maps is None or self._maps.size != size:
             self._maps = light_targets(self.context, size)
         return self._maps
+
+
+def strand_material(look: Look) -> StrandMaterial:
+    """The strands of a look: hair of its colour where they have none of their own."""
+    fibre = Fibre(roughness=look.strand_roughness)
+    red, green, blue = colour_absorption(linear(look.hair_colour), fibre.radial_roughness)
+    return StrandMaterial(fibre, (float(red), float(green), float(blue)), look.strand_model == "fibre")

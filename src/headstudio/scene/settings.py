@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..params import choice, colour, integer, number, switch, text
 
 MOTIONS = ("rest", "shake", "nod", "turn", "tilt", "split", "wind")
+STRAND_MODELS = ("fibre", "kajiya-kay")
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,21 @@ class Look:
         live=True,
     )
     gloss: float = number(40.0, "Gloss", "", 2.0, 200.0, "Exponent of the highlight of hair.", log=True, live=True)
+    strand_model: str = choice(
+        "fibre", "Strand shading", STRAND_MODELS, "Marschner's lobes of a hair fibre, or Kajiya and Kay's.", live=True
+    )
+    strand_roughness: float = number(
+        0.3, "Strand roughness", "", 0.05, 1.0, "How far the highlights of a strand spread along it.", live=True
+    )
+    strands_shown: int = integer(
+        20_000,
+        "Strands shown",
+        100,
+        1_000_000,
+        "Strands that are drawn while you work, wider by as much as the others would cover; a final picture has all.",
+        log=True,
+        live=True,
+    )
     shadows: bool = switch(
         True, "Shadows", "Hair shadows itself and the head, the head shadows itself and the hair.", live=True
     )

@@ -10,6 +10,7 @@ from ..head.frame import HeadFrame
 from ..head.head import Head
 from ..head.mesh import Floats
 from ..lcp.model import HairModel
+from ..wisp.strands import Strands
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,3 +43,4 @@ class Stage:
     frame: HeadFrame = field(default_factory=HeadFrame)
     hair: HairOnStage | None = None
     overlays: Overlays = field(default_factory=Overlays)
+    strands: Strands | None = None

@@ -1,0 +1,58 @@
+// How one hair scatters light, from the tables of render/fibre.py. Lobes: R, TT, TRT, TRRT and on.
+uniform sampler3D around_table;  // A times N over phi, sine of theta, coded absorption
+uniform sampler3D spread_table;  // the same for light from anywhere within a quarter turn
+uniform sampler2D albedo_table;  // forward and back over sine of theta, coded absorption
+uniform vec4 variances;
+uniform vec4 tilt_cos;
+uniform vec4 tilt_sin;
+const float coded_most = 0.98;
+
+// I0(x) exp(-x), Abramowitz and Stegun 9.8.1 and 9.8.2; x >= 0.
+vec4 bessel_scaled(vec4 x) {
+    vec4 t = min(x / 3.75, 1.0), u = 3.75 / max(x, 3.75);
+    t *= t;
+    vec4 low = 1.0 + t * (3.5156229 + t * (3.0899424 + t * (1.2067492 + t * (0.2659732 + t * (0.0360768 + t * 0.0045813)))));
+    vec4 high = 0.39894228 + u * (0.01328592 + u * (0.00225319 + u * (-0.00157565 + u * (0.00916281 + u * (-0.02057706
+        + u * (0.02635537 + u * (-0.01647633 + u * 0.00392377)))))));
+    return mix(low * exp(-min(x, vec4(3.75))), high * inversesqrt(max(x, vec4(3.75))), step(3.75, x));
+}
+
+// M of the four lobes (d'Eon et al. 2011, eq. 7), each `wider` in variance.
+vec4 along_hair(float sin_in, float sin_out, vec4 wider) {
+    vec4 v = variances + wider;
+    float cos_in = sqrt(max(1.0 - sin_in * sin_in, 0.0)), cos_out = sqrt(max(1.0 - sin_out * sin_out, 0.0));
+    vec4 leaning = sin_out * tilt_cos + cos_out * tilt_sin;
+    vec4 leaning_cos = sqrt(max(1.0 - leaning * leaning, 0.0));
+    vec4 cosines = cos_in * leaning_cos;
+    vec4 scale = 1.0 / (v * (1.0 - exp(-2.0 / v)));
+    return bessel_scaled(cosines / v) * exp((cosines - sin_in * leaning - 1.0) / v) * scale;
+}
+
+vec3 coded(vec3 absorption) {
+    return absorption / (1.0 + absorption) / coded_most;
+}
+
+float texel_place(float x, int count) {
+    return (x * float(count - 1) + 0.5) / float(count);
+}
+
+// A times N per lobe for red, green and blue, weighted with M.
+vec3 around_hair(sampler3D table, float phi, float sin_out, vec3 absorption, vec4 along) {
+    vec2 at = vec2(phi / 3.14159265, abs(sin_out));
+    int count = textureSize(table, 0).z;
+    vec3 place = coded(absorption);
+    return vec3(dot(along, textureLod(table, vec3(at, texel_place(place.r, count)), 0.0)),
+                dot(along, textureLod(table, vec3(at, texel_place(place.g, count)), 0.0)),
+                dot(along, textureLod(table, vec3(at, texel_place(place.b, count)), 0.0)));
+}
+
+// What goes on forward (first column) and what comes back (second) of the light at this inclination.
+void albedo(float sine, vec3 absorption, out vec3 forward, out vec3 back) {
+    int count = textureSize(albedo_table, 0).y;
+    vec3 place = coded(absorption);
+    vec2 r = textureLod(albedo_table, vec2(abs(sine), texel_place(place.r, count)), 0.0).rg;
+    vec2 g = textureLod(albedo_table, vec2(abs(sine), texel_place(place.g, count)), 0.0).rg;
+    vec2 b = textureLod(albedo_table, vec2(abs(sine), texel_place(place.b, count)), 0.0).rg;
+    forward = vec3(r.x, g.x, b.x);
+    back = vec3(r.y, g.y, b.y);
+}

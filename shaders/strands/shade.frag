@@ -1,0 +1,53 @@
+#version 330
+// The radiance of every point of every strand towards the eye; one texel is one point.
+#include "common/scene.glsl"
+#include "common/pose.glsl"
+#include "common/shadow.glsl"
+#include "common/strand_points.glsl"
+#include "common/deep_opacity.glsl"
+#include "common/fibre.glsl"
+uniform sampler2D hair_colours;
+uniform bool coloured;         // every point has a colour of its own
+uniform vec3 hair_absorption;  // else: per radius
+uniform float colour_slope;
+uniform bool fibre_model;      // Marschner's lobes, or Kajiya and Kay's
+uniform vec2 kajiya_gloss;
+out vec4 radiance_;
+
+vec3 absorption_at(ivec2 texel) {
+    if (!coloured) return hair_absorption;
+    vec3 root = log(clamp(texelFetch(hair_colours, texel, 0).rgb, 1e-3, 0.98)) / colour_slope;
+    return root * root;
+}
+
+float azimuth_between(vec3 along, vec3 a, vec3 b) {
+    vec3 u = a - along * dot(a, along), v = b - along * dot(b, along);
+    return acos(clamp(dot(u, v) / max(length(u) * length(v), 1e-6), -1.0, 1.0));
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    vec3 place = turned(texelFetch(points, texel, 0).xyz, head_turn.xyz) + head_shift.xyz;
+    vec3 along = normalize(turned(texelFetch(tangents, texel, 0).xyz, head_turn.xyz));
+    vec3 to_eye = normalize(eye.xyz - place);
+    vec3 absorption = absorption_at(texel);
+    float sin_in = dot(to_light.xyz, along), sin_out = dot(to_eye, along);
+    float phi = azimuth_between(along, to_light.xyz, to_eye);
+
+    vec3 at = light_box(place);
+    float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at);
+    float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
+    vec3 forward, back;
+    albedo(sin_in, absorption, forward, back);
+    float direct = exp(-crossed);
+    vec3 scattered = exp(-crossed * (1.0 - forward)) - direct;
+
+    vec3 seen = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)));
+    vec4 wider = vec4(min(crossed, 8.0) * variances.y);
+    seen += scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider));
+    seen *= 3.14159265 * radiance.rgb * lit;
+
+    vec3 soft = mix(ground.rgb, sky.rgb, 0.5 + 0.5 * normalize(place - head_shift.xyz).y);
+    seen += soft * (forward * 0.3 + back) * 0.5;
+    radiance_ = vec4(seen, 1.0);
+}

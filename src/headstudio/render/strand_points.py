@@ -1,0 +1,111 @@
+"""Strands on the graphics card: points in textures that shaders pull from, and the order in which they are drawn.
+
+Strands are shuffled once, so that the first so many of them are a fair sample of the hairstyle: a coarser level of detail
+is a prefix, drawn with wider strands.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ..head.mesh import Ints
+from ..wisp.strands import Singles, Strands
+
+POINT_ROW = 2048
+"""Points in a row of the textures; ``point_row`` in common/strand_points.glsl."""
+
+PIECE = 4
+"""Segments that are sorted as one when strands are blended."""
+
+DEFAULT_RADIUS = 4e-5
+"""Half the thickness of a shaft [m] where the strands do not say it; the last fifth of a strand tapers to half of it."""
+
+_SHUFFLE = 20051
+_RESTART = np.uint32(0xFFFFFFFF)
+
+
+@dataclass(frozen=True, eq=False)
+class PackedStrands:
+    """Shuffled strands as arrays, ready to be sent.
+
+    points: position [m] and radius [m], (p, 4). tangents: along the hair, of any length, (p, 3). colour: linear, (p, 3),
+    or None. first: where each strand starts, (n + 1,).
+    """
+
+    points: Singles
+    tangents: Singles
+    colour: Singles | None
+    first: NDArray[np.int64]
+
+    @property
+    def count(self) -> int:
+        """How many strands, n."""
+        return len(self.first) - 1
+
+
+def pack(strands: Strands) -> PackedStrands:
+    """Shuffle strands and find their tangents."""
+    order = np.random.default_rng(_SHUFFLE).permutation(strands.count)
+    counts = strands.counts[order]
+    first = np.concatenate([[0], np.cumsum(counts)])
+    source = np.repeat(strands.first[order] - first[:-1], counts) + np.arange(first[-1])
+    points = np.empty((len(source), 4), np.float32)
+    points[:, :3] = strands.points[source]
+    points[:, 3] = _default_radius(first) if strands.radius is None else strands.radius[source]
+    place = points[:, :3]
+    tangents = np.empty((len(source), 3), np.float32)
+    tangents[1:-1] = place[2:] - place[:-2]
+    start, end = first[:-1], first[1:] - 1
+    tangents[start] = place[start + 1] - place[start]
+    tangents[end] = place[end] - place[end - 1]
+    return PackedStrands(points, tangents, None if strands.colour is None else strands.colour[source], first)
+
+
+def strip_indices(first: NDArray[np.int64], shown: int) -> NDArray[np.uint32]:
+    """The first ``shown`` strands as triangle strips: two vertices for every point, a restart after every strand."""
+    ends = first[1 : shown + 1]
+    return np.insert(np.arange(2 * first[shown], dtype=np.uint32), 2 * ends, _RESTART)
+
+
+def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint32], Ints]:
+    """The first ``shown`` strands in pieces of PIECE segments: strips (k, 2 PIECE + 3), and a point amid each, (k,).
+
+    A shorter piece repeats its last vertices: triangles without area.
+    """
+    segments = np.diff(first[: shown + 1]) - 1
+    pieces = -(-segments // PIECE)
+    which = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    start = np.repeat(first[:shown], pieces) + PIECE * which
+    last = np.repeat(first[1 : shown + 1] - 1, pieces)
+    strips = np.full((len(start), 2 * PIECE + 3), _RESTART, np.uint32)
+    strips[:, :-1] = np.minimum(2 * start[:, None] + np.arange(2 * PIECE + 2), 2 * last[:, None] + 1)
+    return strips, np.minimum(start + PIECE // 2, last)
+
+
+class StrandTextures:
+    """The arrays of packed strands as textures of POINT_ROW points a row."""
+
+    def __init__(self, context: moderngl.Context, packed: PackedStrands) -> None:
+        self.rows = -(-len(packed.points) // POINT_ROW)
+        self.points = self._texture(context, packed.points)
+        self.tangents = self._texture(context, packed.tangents)
+        self.colour = None if packed.colour is None else self._texture(context, packed.colour)
+
+    def _texture(self, context: moderngl.Context, values: Singles) -> moderngl.Texture:
+        parts = values.shape[1]
+        padded = np.zeros((self.rows * POINT_ROW, parts), np.float32)
+        padded[: len(values)] = values
+        texture = context.texture((POINT_ROW, self.rows), parts, padded, dtype="f4")
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return texture
+
+
+def _default_radius(first: NDArray[np.int64]) -> Singles:
+    counts = np.diff(first)
+    place = np.arange(first[-1]) - np.repeat(first[:-1], counts)
+    along = place / np.repeat(counts - 1, counts)
+    return (DEFAULT_RADIUS * np.minimum(1.0, 0.5 + 2.5 * (1 - along))).astype(np.float32)
