@@ -14,6 +14,7 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.repair import face_components
+from .metric import face_metrics
 from .projection import Layout, border_cycles, loop_steps
 from .texture_map import TextureMap
 
@@ -81,18 +82,6 @@ def distortion(texture_map: TextureMap) -> Distortion:
     area /= shares @ area
     low, high = _percentiles(area, shares, [0.05, 0.95])
     return Distortion(low, high, float(shares @ np.minimum(stretch, 1e3)), _percentiles(stretch, shares, [0.95])[0])
-
-
-def face_metrics(mesh: TriangleMesh, corners: Floats) -> Floats:
-    """First fundamental form of every triangle over texture space [m^2], (m, 2, 2).
-
-    A step a in texture space is sqrt(a . G a) long on the skin.
-    """
-    space = mesh.vertices[mesh.faces]
-    skin_edges = np.stack([space[:, 1] - space[:, 0], space[:, 2] - space[:, 0]], axis=1)
-    plane_edges = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=1)
-    jacobian = np.linalg.solve(plane_edges, skin_edges)
-    return np.einsum("nij,nkj->nik", jacobian, jacobian)
 
 
 def _percentiles(values: Floats, shares: Floats, at: list[float]) -> list[float]:
