@@ -47,8 +47,9 @@ def test_hair_in_the_head_frame_stays_where_it_is(head, scalp, hanging):
     assert np.abs(found - hanging).max() < 1e-5
 
 
-@pytest.mark.parametrize("unit", [0.01, 1.0, 100.0, 1000.0])
-@pytest.mark.parametrize("turn", [[0, 0, 0], [90, 0, 0], [0, 180, 0], [0, 90, 90]])
+@pytest.mark.parametrize(
+    ("unit", "turn"), [(0.01, [90, 0, 0]), (1.0, [0, 180, 0]), (100.0, [0, 90, 90]), (1000.0, [0, 0, 0])]
+)
 def test_unit_and_axes_are_found(head, scalp, hanging, unit, turn):
     rotation = Rotation.from_euler("xyz", turn, degrees=True).as_matrix()
     in_file = unit * (hanging @ rotation.T) + 0.3 * unit
