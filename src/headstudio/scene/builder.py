@@ -13,6 +13,8 @@ from ..head.scalp import Scalp, grow_scalp
 from ..lcp.body import Body
 from ..lcp.grow import grow_hair
 from ..lcp.model import HairModel
+from ..wisp.hairdo import Hairdo, style_hair
+from ..wisp.surroundings import Surroundings
 from .document import Document
 from .settings import HeadSettings
 
@@ -32,8 +34,8 @@ class Built:
 class Builder:
     """Builds documents one after the other and makes again only what a change concerns.
 
-    ``announce`` is told what is being made ("head", "scalp", "body", "hair") before it is. Not for several threads at
-    once.
+    ``announce`` is told what is being made ("head", "scalp", "body", "hair", "surroundings", and the steps of a hairdo)
+    before it is. Not for several threads at once.
     """
 
     def __init__(self, announce: Callable[[str], None] = lambda part: None) -> None:
@@ -43,8 +45,7 @@ class Builder:
 
     def build(self, document: Document) -> Built:
         """Build ``document``. Raises HeadError for a head or scalp curves that cannot be used."""
-        head = self.head(document.head)
-        scalp = self._part("scalp", (head, document.scalp), lambda: grow_scalp(head, document.scalp))
+        head, scalp = self.head(document.head), self.scalp(document)
         body = self._part("body", head, lambda: Body.around(head))
         hair = self._part("hair", (scalp, body, document.hair), lambda: grow_hair(scalp, body, document.hair))
         return Built(head, scalp, body, hair)
@@ -56,6 +57,25 @@ class Builder:
             (settings, _last_written(settings.source)),
             lambda: load_head(settings.source, age=settings.age, masculine=settings.masculine),
         )
+
+    def scalp(self, document: Document) -> Scalp:
+        """The scalp on the head of ``document``. Raises HeadError for a head or curves that cannot be used."""
+        head = self.head(document.head)
+        return self._part("scalp", (head, document.scalp), lambda: grow_scalp(head, document.scalp))
+
+    def surroundings(self, document: Document) -> Surroundings:
+        """The space around the head of ``document``, as styled hair meets it. Raises HeadError."""
+        head = self.head(document.head)
+        return self._part("surroundings", head, lambda: Surroundings.around(head))
+
+    def hairdo(self, document: Document, strands: int | None = None) -> Hairdo:
+        """The hairstyle of ``document``, made on demand; ``strands``: only the first so many of its strands.
+
+        Raises HeadError, and ParameterError for curves that cannot be used.
+        """
+        scalp, surroundings = self.scalp(document), self.surroundings(document)
+        wanted = (scalp, surroundings, document.wisp, document.colour, document.styling, strands)
+        return self._part("hairdo", wanted, lambda: style_hair(*wanted, announce=self._announce))
 
     def _part(self, kind: str, wanted: Any, make: Callable[[], PartT]) -> PartT:
         if kind not in self._made or self._made[kind][0] != wanted:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from ..head.scalp_settings import ScalpSettings
 from ..lcp.settings import DynamicsSettings, HairSettings, WindSettings
 from ..wisp.settings import HairColourSettings, WispSettings
+from ..wisp.styling_settings import StylingSettings
 from .settings import Camera, HeadSettings, Look, MotionSettings
 
 
@@ -23,6 +24,7 @@ class Document:
     lcp: DynamicsSettings = field(default_factory=DynamicsSettings)
     wind: WindSettings = field(default_factory=WindSettings)
     wisp: WispSettings = field(default_factory=WispSettings)
+    styling: StylingSettings = field(default_factory=StylingSettings)
     colour: HairColourSettings = field(default_factory=HairColourSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)
     look: Look = field(default_factory=Look)

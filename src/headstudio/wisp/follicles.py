@@ -18,8 +18,8 @@ from ..head.scalp import Scalp
 from ..head.scalp_settings import GrayImage
 from .parting import Parting
 
-_LARGEST_TILE = 0.0035  # edge [m]
-_LLOYD_STEPS = 8
+_LARGEST_TILE = 0.004  # edge [m]
+_LLOYD_STEPS = 6
 # Additive recurrence of Roberts (2018): its points fill a cube evenly, however many of them one takes.
 _PLASTIC = 1.2207440846057596
 _STRIDE = np.array([1 / _PLASTIC, 1 / _PLASTIC**2, 1 / _PLASTIC**3])
@@ -77,11 +77,12 @@ class Regions:
         return len(self.roots)
 
 
+@lru_cache(maxsize=4)
 def spread_wisps(scalp: Scalp, density: GrayImage, count: int, parting: Parting | None, seed: int) -> Regions:
     """Spread ``count`` master roots evenly over the skin where hair grows, by Lloyd's relaxation in the skin's own metric.
 
     Fewer, if hair grows on fewer tiles. Each region is what lies nearer to its root than to any other, on the same bank
-    of the parting.
+    of the parting. The last few results are kept: most of what an artist changes does not move a root.
     """
     tiles = tiles_of(scalp)
     weight = tiles.areas * sample(density, tiles.uv[tiles.corners].mean(axis=1))
@@ -89,7 +90,7 @@ def spread_wisps(scalp: Scalp, density: GrayImage, count: int, parting: Parting 
     centres = corner_places[tiles.corners].mean(axis=1)
     # Even over the skin, whatever the density: the paper's density map says how many strands a wisp has.
     area = np.where(weight > 0, tiles.areas, 0.0)
-    count = min(count, np.count_nonzero(area))
+    count = min(count, int(np.count_nonzero(area)))
     rng = np.random.default_rng([seed, 0])
     places = centres[_pick(area, count, rng)] if count else np.zeros((0, 4))
     for _ in range(_LLOYD_STEPS if count else 0):
@@ -98,9 +99,9 @@ def spread_wisps(scalp: Scalp, density: GrayImage, count: int, parting: Parting 
     roots = scalp.points(uv)
     places = _places(roots, parting)
     if count == 0:
-        return Regions(
-            tiles, roots, uv, *np.zeros((2, 0)), weight, np.zeros((0, 4), dtype=np.int64), places, corner_places
-        )
+        none = np.zeros(0)
+        nearest = np.zeros((len(area), 4), dtype=np.int64)
+        return Regions(tiles, roots, uv, none, none, weight, nearest, places, corner_places)
     owner = _owners(places, centres)
     nearest = np.column_stack([owner, _owners(places, corner_places)[tiles.corners]])
     share = np.bincount(owner, weight, minlength=count) / weight.sum()
@@ -136,7 +137,7 @@ def _places(points: Floats, parting: Parting | None) -> Floats:
 
 
 def _owners(places: Floats, points: Floats) -> Ints:
-    return cKDTree(places).query(points)[1]
+    return cKDTree(places).query(points, workers=-1)[1]
 
 
 def _centroids(centres: Floats, area: Floats, owner: Ints, places: Floats) -> Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -39,9 +40,13 @@ class Parting:
     @classmethod
     def of(cls, scalp: Scalp, settings: WispSettings) -> Parting | None:
         """The parting that the settings ask for, if any. Raises ParameterError for a drawn line that is none."""
-        line = np.array(settings.parting_line or _LINES[settings.parting], dtype=np.float64)
-        if len(line) == 0:
-            return None
+        line = settings.parting_line or _LINES[settings.parting]
+        return cls._along(scalp, line, settings.parting_reach) if line else None
+
+    @classmethod
+    @lru_cache(maxsize=4)
+    def _along(cls, scalp: Scalp, points_uv: CurvePoints, reach: float) -> Parting:
+        line = np.array(points_uv, dtype=np.float64)
         if line.ndim != 2 or line.shape[1] != 2 or len(line) < 2 or not np.isfinite(line).all():
             raise ParameterError("a parting is a line of two or more points (u, v)")
         uv = _evenly(line, 400)
@@ -49,7 +54,7 @@ class Parting:
         along = np.gradient(points, axis=0)
         leftward = np.cross(scalp.normals(scalp.locate(points)), along)
         length = np.linalg.norm(leftward, axis=1, keepdims=True)
-        return cls(points, leftward / np.maximum(length, np.finfo(float).tiny), settings.parting_reach)
+        return cls(points, leftward / np.maximum(length, np.finfo(float).tiny), reach)
 
     def detour(self, points: Floats) -> Floats:
         """How far aside of the line points of the skin [m], (n, 3), are taken to be, in a fourth direction [m], (n,).

@@ -1,0 +1,97 @@
+"""Master strands: an outline and, around it, details after the prototype (Choe, Ko 2005, figure 5 and section 2.2)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..head.mesh import Floats
+from .catmull_rom import catmull_rom_matrix
+from .markov import Singles, synthesise, window_size, without_loose_end
+from .outlines import Outlines
+from .parting import unit
+from .prototypes import prototype_of
+from .settings import WispSettings
+
+# So many control points a Catmull-Rom spline needs to go once around a curl.
+CONTROLS_PER_PITCH = 7
+
+
+@dataclass(frozen=True, eq=False)
+class Details:
+    """Details of W master strands [m], (W, n, 3), in the frames of their outlines: ``per_segment`` of them a segment,
+    from the root on, so that n is per_segment J + 1. None where hair is straight.
+    """
+
+    offsets: Singles | None
+    per_segment: int
+
+
+def synthesise_details(outlines: Outlines, settings: WispSettings) -> Details:
+    """Give every master strand details of its own after the prototype.
+
+    Curls have their pitch in metres, on short hair and on long. Where it is short, details lie closer than joints; the
+    outline between joints is interpolated. At the root there are none, and they reach their size along the straight
+    roots, for a strand starts where it grows.
+    """
+    prototype = prototype_of(settings)
+    if prototype is None:
+        return Details(None, 1)
+    wisps, joints = outlines.frames.shape[:2]
+    per_segment = max(math.ceil(CONTROLS_PER_PITCH * outlines.segment / prototype.pitch), 1)
+    spacing = outlines.segment / per_segment
+    samples = prototype.sampled(spacing)
+    window = window_size(samples, settings.window * prototype.pitch / spacing)
+    samples = without_loose_end(samples, window)
+    rng = np.random.default_rng([settings.seed, 2])
+    loose = 1.0 - settings.alignment
+    phase = np.asarray(loose * rng.random(wisps))
+    starts = window + (phase * (len(samples) - window)).astype(np.int64)
+    offsets = synthesise(samples, window, settings.temperature, starts, per_segment * joints + 1, rng)
+    spin = np.asarray(loose * rng.uniform(-math.pi, math.pi, wisps))
+    offsets = _spun(offsets, spin)
+    along: Floats = spacing * np.arange(offsets.shape[1], dtype=np.float64)
+    return Details(offsets * _onset(along, settings.straight_roots)[:, None], per_segment)
+
+
+def master_controls(outlines: Outlines, details: Details) -> Singles:
+    """Control points p = c + delta of the master strands [m], (W, n, 3): the details in the frames of the outlines."""
+    count = details.per_segment
+    joints = outlines.frames.shape[1]
+    at = np.arange(joints * count + 1) / count
+    centres = outlines.joints
+    if count > 1:
+        centres = np.matmul(catmull_rom_matrix(joints + 1, at), centres)
+    if details.offsets is None:
+        return centres.astype(np.float32)
+    frames = _frames_at(outlines.frames, at).astype(np.float32)
+    turned: Singles = np.einsum("wnij,wnj->wni", frames, details.offsets)
+    return (centres + turned).astype(np.float32)
+
+
+def _frames_at(frames: Floats, at: Floats) -> Floats:
+    """Frames along outlines at parameters counted in segments, (n,): (W, n, 3, 3). Each segment's is at its middle."""
+    place = np.clip(at - 0.5, 0, frames.shape[1] - 1)
+    before = np.minimum(place.astype(np.int64), max(frames.shape[1] - 2, 0))
+    after = np.minimum(before + 1, frames.shape[1] - 1)
+    part = (place - before)[:, None, None]
+    blend = (1 - part) * frames[:, before] + part * frames[:, after]
+    along = unit(blend[..., 2])
+    across = blend[..., 0] - np.einsum("wni,wni->wn", blend[..., 0], along)[..., None] * along
+    across = unit(across)
+    return np.stack([across, np.cross(along, across), along], axis=-1)
+
+
+def _spun(offsets: Singles, angle: Floats) -> Singles:
+    """Details turned about the outline, each strand by its own angle [rad], (W,)."""
+    cosine, sine = (f(angle).astype(np.float32)[:, None] for f in (np.cos, np.sin))
+    x, y, z = np.moveaxis(offsets, -1, 0)
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y, z], axis=-1)
+
+
+def _onset(along: Floats, straight: float) -> Singles:
+    """The part of its size that a detail has at a distance from the root [m], (n,)."""
+    part = np.clip(along / max(straight, 1e-9), 0.0, 1.0)
+    return (part * part * (3 - 2 * part)).astype(np.float32)
