@@ -21,6 +21,8 @@ from ..head.scalp_settings import GrayImage
 from ..params import ParameterError
 from ..wisp.curves import checked_curve
 from ..wisp.settings import CurvePoints, Path3D
+from ..wrinkle.face_settings import SLIDERS
+from ..wrinkle.performance import Performance, check_performance, keyframe
 
 Curves = tuple[tuple[tuple[float, float, float], ...], ...]
 
@@ -115,6 +117,22 @@ def _decode_points(content: bytes, dimensions: int) -> Any:
     return points
 
 
+def encode_performance(performance: Performance) -> bytes:
+    """Keyframes as JSON, a line each: {"time": seconds, "weights": {slider: strength}}."""
+    keys = ({"time": key.time, "weights": dict(key.weights)} for key in performance)
+    lines = ",\n".join(" " + json.dumps(key, allow_nan=False) for key in keys)
+    return f"[\n{lines}\n]\n".encode()
+
+
+def decode_performance(content: bytes) -> Performance:
+    """Keyframes of the face. Raises ValueError."""
+    try:
+        keys = tuple(keyframe(key["time"], key["weights"]) for key in json.loads(content))
+    except (AttributeError, KeyError, TypeError, ValueError, OverflowError, RecursionError):
+        raise ValueError("is no list of keyframes") from None
+    return check_performance(keys, SLIDERS)
+
+
 ATTACHMENTS = (
     Attachment("scalp.curves", "scalp/curves.json", encode_curves, decode_curves),
     Attachment("scalp.painted_lengths", "scalp/lengths.png", encode_gray, decode_gray),
@@ -125,4 +143,6 @@ ATTACHMENTS = (
     Attachment("wisp.painted_density", "wisp/density.png", encode_gray, decode_gray),
     Attachment("wisp.painted_lengths", "wisp/lengths.png", encode_gray, decode_gray),
     Attachment("wisp.painted_protrusion", "wisp/protrusion.png", encode_gray, decode_gray),
+    Attachment("face.painted_tissue", "face/tissue.png", encode_gray, decode_gray),
+    Attachment("face.performance", "face/performance.json", encode_performance, decode_performance),
 )

@@ -11,6 +11,7 @@ from ..head.scalp_settings import ScalpSettings
 from ..lcp.settings import DynamicsSettings, HairSettings, WindSettings
 from ..wisp.settings import HairColourSettings, WispSettings
 from ..wisp.styling_settings import StylingSettings
+from ..wrinkle.face_settings import FaceSettings
 from .settings import Camera, HeadSettings, Look, MotionSettings
 
 
@@ -26,6 +27,7 @@ class Document:
     wisp: WispSettings = field(default_factory=WispSettings)
     styling: StylingSettings = field(default_factory=StylingSettings)
     colour: HairColourSettings = field(default_factory=HairColourSettings)
+    face: FaceSettings = field(default_factory=FaceSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)
     look: Look = field(default_factory=Look)
     camera: Camera = field(default_factory=Camera)

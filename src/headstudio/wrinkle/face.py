@@ -13,7 +13,7 @@ from ..head.mesh import Floats, Ints
 from .expressions import BLINK, EXPRESSIONS, JAW_OPEN, Expression
 from .face_settings import FaceSettings
 from .jaw import find_jaw
-from .lids import Lids, find_lids
+from .lids import find_lids
 from .muscle_set import SIDES, place_muscles
 from .part_motion import EyeMotion, HairPartMotion, JawPartMotion
 from .tissue import TissueLift
@@ -82,7 +82,7 @@ class Face:
         positions = self._rest + (self._fields @ self._activity(strengths, settings.driver)).reshape(-1, 3)
         if drive.jaw:
             jawed = self._jawed
-            positions[jawed] = self._jaw.turned(positions[jawed], self._jaw.weight[jawed], drive.jaw)
+            positions[jawed] = self._jaw.opened(jawed, positions[jawed], drive.jaw)
         for side, lids in self._lids.items():
             turn = lids.turns(drive.upper[side], drive.lower[side])
             positions[lids.vertices] = lids.turned(positions[lids.vertices], turn)

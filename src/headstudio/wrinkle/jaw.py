@@ -17,8 +17,8 @@ from scipy.sparse.linalg import splu
 from scipy.spatial.transform import Rotation
 
 from ..head.head import Head, Landmarks, Part
-from ..head.mesh import Floats, TriangleMesh
-from ..head.profile import seen_from
+from ..head.locate import locator
+from ..head.mesh import Floats, Ints, TriangleMesh
 
 # The hinge lies in front of the ear hole by this part of the height of the head.
 _HINGE_FORWARD = 0.05
@@ -34,8 +34,14 @@ _GLIDE = 0.06
 _SEAM_REACH = 0.45
 _COLUMNS = 25
 _LEVELS = 61
+# A lip belongs to its bone beyond this distance from the seam, and in this middle part of it; both in half widths of the
+# mouth. The corners hang between the bones.
+_LIP_MARGIN = 0.07
+_LIP_MIDDLE = 0.6
 # What is hidden from the front by more than this [m] is no outside of a lip.
 _HIDDEN = 0.0008
+# Skin stretched between the lips goes back by this part of how far they part.
+_HOLLOW = 0.8
 # Keeps pieces of the skin that touch neither bone where they are.
 _LOOSE = 1e-9
 
@@ -46,13 +52,20 @@ class Jaw:
 
     hinge: a point on its axis, shape (3,) [m]. axis: unit direction of the axis to the person's left, shape (3,). glide:
     how far the joint moves per radian, shape (3,) [m]. weight: share of the turn that every vertex of the skin takes, 0
-    to 1, shape (n,).
+    to 1, shape (n,). hollow: how far back skin between the lips goes per radian, shape (n,) [m]: what is stretched
+    between them in a mouth that is only a groove is the inside of the mouth.
     """
 
     hinge: Floats
     axis: Floats
     glide: Floats
     weight: Floats
+    hollow: Floats
+
+    def opened(self, vertices: Ints, points: Floats, angle: float) -> Floats:
+        """The skin's ``vertices``, (k,), which are now at ``points``, (k, 3), with the jaw open by ``angle`` [rad]."""
+        back = self.glide / np.linalg.norm(self.glide)
+        return self.turned(points, self.weight[vertices], angle) - (angle * self.hollow[vertices])[:, None] * back
 
     def turned(self, points: Floats, weight: Floats, angle: float) -> Floats:
         """Points, (k, 3), turned open by ``angle`` [rad] times their weight, (k,)."""
@@ -71,7 +84,8 @@ def find_jaw(head: Head) -> Jaw:
     forward = forward / np.linalg.norm(forward)
     hinge = 0.5 * (marks.left_tragus + marks.right_tragus) + _HINGE_FORWARD * height * forward
     glide = _GLIDE * height * forward
-    return Jaw(hinge, axis, glide, _spread(head.skin, *_carried(head, hinge, axis)))
+    weight = _spread(head.skin, *_carried(head, hinge, axis))
+    return Jaw(hinge, axis, glide, weight, _hollow(head, hinge, weight))
 
 
 def lip_seam(skin: TriangleMesh, marks: Landmarks) -> Floats:
@@ -82,7 +96,7 @@ def lip_seam(skin: TriangleMesh, marks: Landmarks) -> Floats:
     reach = _SEAM_REACH * 0.5 * float(np.linalg.norm(marks.mouth_left - marks.mouth_right))
     offset = np.linspace(-reach, reach, _LEVELS)
     across = np.stack(np.broadcast_arrays(x[:, None], corner[:, None] + offset), axis=2)
-    depth = seen_from(skin, 2, 1.0, across.reshape(-1, 2)).reshape(_COLUMNS, _LEVELS)
+    depth = _seen_from_front(skin, across.reshape(-1, 2)).reshape(_COLUMNS, _LEVELS)
     # The lips meet in the deepest hollow between two bulges.
     below = np.maximum.accumulate(depth, axis=1)
     above = np.maximum.accumulate(depth[:, ::-1], axis=1)[:, ::-1]
@@ -114,18 +128,39 @@ def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Floats, Floats]:
 
     skull = (ahead < 0) | (angle < corner_angle + _CHEEK[0]) | (angle > chin_angle + _THROAT[1])
     jawbone = far & (angle > corner_angle + _CHEEK[1]) & (angle < chin_angle + _THROAT[0])
-    between = (points[:, 0] > seam[0, 0]) & (points[:, 0] < seam[-1, 0])
-    lips = between & (np.abs(angle - corner_angle) < _CHEEK[1]) & far
-    index = np.nonzero(lips)[0]
-    seen = seen_from(head.skin, 2, 1.0, points[index, :2])
-    outside = points[index, 2] > seen - _HIDDEN
-    over = points[index, 1] - np.interp(points[index, 0], seam[:, 0], seam[:, 1])
-    # Inside the mouth neither bone holds the skin: it hangs between the lips.
-    hidden = index[~outside]
-    skull[hidden] = jawbone[hidden] = False
-    skull[index[outside]] = over[outside] > 0
-    jawbone[index[outside]] = over[outside] <= 0
+    half_width = 0.5 * (seam[-1, 0] - seam[0, 0])
+    beside = np.abs(points[:, 0] - 0.5 * (seam[-1, 0] + seam[0, 0])) / half_width
+    index = np.nonzero((beside < 1.0) & (np.abs(angle - corner_angle) < 2.0 * _CHEEK[1]) & far)[0]
+    over = (points[index, 1] - np.interp(points[index, 0], seam[:, 0], seam[:, 1])) / half_width
+    outside = points[index, 2] > _seen_from_front(head.skin, points[index, :2]) - _HIDDEN
+    held = outside & (beside[index] < _LIP_MIDDLE)
+    # Neither bone holds what lines the mouth: it hangs between the lips.
+    lining = index[~outside]
+    skull[lining] = jawbone[lining] = False
+    skull[index[held & (over > _LIP_MARGIN)]] = True
+    jawbone[index[held & (over < -_LIP_MARGIN)]] = True
     return skull, jawbone & ~skull
+
+
+def _seen_from_front(skin: TriangleMesh, across: Floats) -> Floats:
+    """How far forward the skin reaches at each (x, y), (k, 2) [m], (k,); its hindmost point where it has a hole."""
+    back, front = skin.bounds[:, 2] + [0.0, 0.1]
+    starts = np.column_stack([across, np.full(len(across), front)])
+    met = locator(skin).first_hit(starts, np.broadcast_to([0.0, 0.0, -1.0], starts.shape))
+    return np.maximum(front - met, back)
+
+
+def _hollow(head: Head, hinge: Floats, weight: Floats) -> Floats:
+    """How far back skin goes per radian [m], (n,): most half way between the lips, nothing at the corners."""
+    marks = head.landmarks
+    middle = 0.5 * (marks.mouth_left + marks.mouth_right)
+    half_width = 0.5 * float(np.linalg.norm(marks.mouth_left - marks.mouth_right))
+    away = (head.skin.vertices - middle) / half_width
+    beside, over = np.clip(np.abs(away[:, 0]), 0.0, 1.0), np.clip(np.abs(away[:, 1]) / _SEAM_REACH, 0.0, 1.0)
+    between = 4.0 * weight * (1.0 - weight)
+    lever = float(np.linalg.norm(middle - hinge))
+    hollow: Floats = _HOLLOW * lever * between * (1.0 - beside**2) ** 2 * (1.0 - over**4)
+    return hollow
 
 
 def _spread(skin: TriangleMesh, skull: Floats, jawbone: Floats) -> Floats:

@@ -1,6 +1,6 @@
 """Eyelids: skin that turns about the middle of the eyeball, and never enters it.
 
-The opening is found by looking out of the eyeball, column by column. A lid turns about the axis of the eye that runs
+The opening is what of the ball is seen from the front, column by column. A lid turns about the axis of the eye that runs
 from side to side, which keeps its distance from the ball, and the skin beside it follows less and less.
 """
 
@@ -15,8 +15,6 @@ from ..head.head import Landmarks, Part
 from ..head.locate import locator
 from ..head.mesh import Floats, Ints, TriangleMesh
 
-# What is met between these distances from the middle of the ball, in its radii, is a lid.
-_LID = (0.95, 1.8)
 # Lids turn as one up to this distance, and what is farther than the second rests.
 _THICK = (1.3, 2.0)
 # How far beyond its margin a lid takes skin along [rad], the upper and the lower one.
@@ -109,7 +107,7 @@ def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:
         near,
         fall=np.where(is_upper, above, 0.0) * (top - meeting),
         rise=np.where(is_upper, 0.0, below) * (meeting - bottom),
-        clearance=np.where(distance < _LID[0] * eye.radius, 0.0, np.minimum(distance, _CLEAR * eye.radius)),
+        clearance=np.where(distance < eye.radius, 0.0, np.minimum(distance, _CLEAR * eye.radius)),
     )
 
 
@@ -126,11 +124,10 @@ def _margins(
     """The angles of the upper and the lower margin in every column [rad], (50,) each; equal beside the opening."""
     left, up, forward = axes
     level = np.sqrt(1.0 - _COLUMNS**2)[:, None, None]
-    plane = np.sin(_ANGLES)[:, None] * up + np.cos(_ANGLES)[:, None] * forward
-    directions = (_COLUMNS[:, None, None] * left + level * plane).reshape(-1, 3)
-    starts = centre + _LID[0] * radius * directions
-    met = locator(skin).first_hit(starts, directions).reshape(len(_COLUMNS), len(_ANGLES))
-    is_open = met > (_LID[1] - _LID[0]) * radius
+    around = np.sin(_ANGLES)[:, None] * up + np.cos(_ANGLES)[:, None] * forward
+    ball = centre + radius * (_COLUMNS[:, None, None] * left + level * around).reshape(-1, 3)
+    met = locator(skin).first_hit(ball, np.broadcast_to(forward, ball.shape))
+    is_open = np.isinf(met).reshape(len(_COLUMNS), len(_ANGLES))
     start, end = _longest_runs(is_open)
     seen = np.nonzero(end > start)[0]
     if len(seen) < 3:

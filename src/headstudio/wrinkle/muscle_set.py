@@ -80,6 +80,7 @@ _ADDED = {
     "orbicularis oris": _Sphincter((0.0, -2.3, 8.2), 2.6, 2.0, 2.0, (1.0, 0.35), 0.5),
     "depressor supercilii": _Linear((-1.7, 3.9, 7.9), (-0.8, 2.3, 7.5), 0.4, 3.0, 60),
     "procerus": _Linear((-0.35, 3.8, 8.1), (-0.2, 1.9, 8.2), 0.3, 3.0, 45),
+    "levator anguli oris": _Linear((-1.570, -2.221, 7.820), (-2.3, 0.9, 7.3), 0.1, 5.0, 45),
     "risorius": _Linear((-1.570, -2.221, 7.85), (-4.2, -1.5, 4.4), 0.1, 4.9, 40),
     "depressor labii": _Linear((-0.75, -2.9, 8.2), (-1.1, -4.5, 7.0), 0.1, 2.7, 45),
     "mentalis": _Linear((-0.3, -4.6, 7.5), (-0.25, -2.9, 7.8), 0.2, 2.6, 50),
@@ -152,11 +153,14 @@ def _placed(entry: _Linear | _Sheet | _Sphincter, carried: _Carried) -> Muscle:
         across = carried.step(entry.insertion, 0)
         width = float(np.linalg.norm(across))
         return SheetMuscle(
-            origin, insertion, across / width, entry.half_width * width, entry.fade_start * scale, entry.fade_end * scale
+            origin,
+            insertion,
+            across / width,
+            entry.half_width * width,
+            entry.fade_start * scale,
+            entry.fade_end * scale,
         )
-    return LinearMuscle(
-        origin, insertion, entry.fade_start * scale, entry.fade_end * scale, math.radians(entry.zone)
-    )
+    return LinearMuscle(origin, insertion, entry.fade_start * scale, entry.fade_end * scale, math.radians(entry.zone))
 
 
 def _placed_sphincter(entry: _Sphincter, carried: _Carried) -> SphincterMuscle:

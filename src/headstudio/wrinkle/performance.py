@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -30,7 +31,7 @@ def keyframe(time: float, weights: Mapping[str, float]) -> Keyframe:
 def check_performance(performance: Performance, sliders: tuple[str, ...]) -> Performance:
     """Return ``performance`` if times rise and every weight is a slider's from 0 to 1. Raises ValueError, a phrase."""
     times = [key.time for key in performance]
-    if not all(map(math.isfinite, times)) or any(later <= earlier for earlier, later in zip(times, times[1:])):
+    if not all(map(math.isfinite, times)) or any(later <= earlier for earlier, later in pairwise(times)):
         raise ValueError("has keyframes whose times do not rise")
     for key in performance:
         for name, value in key.weights:
