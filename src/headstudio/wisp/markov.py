@@ -24,19 +24,24 @@ def window_size(prototype: Floats, wanted: float) -> int:
 
 
 def without_loose_end(prototype: Floats, window: int) -> Floats:
-    """The prototype, (m, 3), cut off in its last third where what goes before looks most like an earlier part of it.
+    """The prototype, (m, 3), cut off where a chain that has followed it so far best goes on at an earlier part.
 
-    There a chain that has followed it to the end goes on at the earlier part with the least break.
+    That is where the break, spread over the way back to it, is least. Without this a chain runs into the end of the
+    prototype, and has to leave it for whatever is nearest.
     """
     windows = _windows(prototype, window)
-    first = 2 * len(windows) // 3
-    gap = np.sqrt(_squared_distances(windows[first:], windows))
-    # A window overlaps itself: what is to be found lies before.
-    gap[np.arange(len(windows))[None] > np.arange(first, len(windows))[:, None] - window] = np.inf
-    best = gap.min(axis=1)
-    if not np.isfinite(best).any():
+    count = len(windows)
+    gap = np.sqrt(_squared_distances(windows, windows))
+    way = np.arange(count)[:, None] - np.arange(count)
+    # A window overlaps itself: what the chain goes back to lies wholly before.
+    gap[way < window] = np.inf
+    back = gap.argmin(axis=1)
+    end = np.arange(count)
+    usable = np.isfinite(gap[end, back])
+    if not usable.any():
         return prototype
-    return prototype[: window + first + int(best.argmin())]
+    cost = np.where(usable, gap[end, back] / np.maximum(way[end, back], 1), np.inf)
+    return prototype[: window + int(cost.argmin())]
 
 
 def synthesise(

@@ -14,7 +14,7 @@ from ..params import ParameterError
 from .parting import unit
 from .settings import Path3D, WispSettings
 
-_PERIODS = 10
+_PERIODS = 14
 _SAMPLES = 400  # of a drawn curve
 
 
@@ -129,30 +129,22 @@ def _helix(radius: float, pitch: float, irregularity: float, seed: int, flat: fl
     return Prototype(details, _PERIODS * pitch, pitch)
 
 
-def _zigzag(reach: float, pitch: float, irregularity: float, seed: int) -> Prototype:
-    """Sharp bends to and fro in one plane, as plaits leave them."""
+def _zigzag(reach: float, pitch: float, irregularity: float, seed: int, flat: float = 0.0) -> Prototype:
+    """Sharp bends to and fro in one plane, as plaits leave them; ``flat`` above 0 adds bends across it."""
 
     def details(places: Floats) -> Floats:
-        phase = places / pitch + 0.5 * irregularity * _wander(places, 2.3 * pitch, seed)
+        phase = places / pitch + irregularity * _wander(places, 2.3 * pitch, seed)
         size = reach * (1 + irregularity * _wander(places, 3.1 * pitch, seed + 1))
-        to_and_fro = 4 * np.abs(phase - np.floor(phase + 0.5)) - 1
         aside = irregularity * reach * _wander(places, 1.3 * pitch, seed + 2)
-        return np.stack([size * to_and_fro, aside, np.zeros_like(places)], axis=-1)
+        along = 0.5 * irregularity * pitch * _wander(places, 1.7 * pitch, seed + 3)
+        return np.stack([size * _to_and_fro(phase), flat * size * _to_and_fro(phase + 0.3) + aside, along], axis=-1)
 
     return Prototype(details, _PERIODS * pitch, pitch)
 
 
-def _kinky(radius: float, pitch: float, seed: int) -> Prototype:
-    """A coil that keeps changing its sense of turning and its size, with sharp bends where it does."""
-
-    def details(places: Floats) -> Floats:
-        turn = 2 * math.pi * places / pitch
-        x = np.sin(turn) + 0.5 * np.sin(1.618 * turn + 1.0)
-        y = np.sin(1.27 * turn + 2.0) + 0.5 * _wander(places, 0.8 * pitch, seed)
-        along = 0.5 * np.sin(2.1 * turn)
-        return radius * np.stack([x, y, along], axis=-1)
-
-    return Prototype(details, _PERIODS * pitch, pitch)
+def _to_and_fro(phase: Floats) -> Floats:
+    """A triangle wave between -1 and 1 of period 1."""
+    return 4 * np.abs(phase - np.floor(phase + 0.5)) - 1
 
 
 # Sizes [m] of curls as hairdressers class them: wavy is 2B, loose curl 3A, tight curl 3C, coil 4A, kinky 4B.
@@ -161,6 +153,6 @@ _SHIPPED: Mapping[str, Callable[[], Prototype]] = {
     "loose curl": lambda: _helix(0.009, 0.042, 0.1, seed=2),
     "tight curl": lambda: _helix(0.0045, 0.018, 0.08, seed=3),
     "coil": lambda: _helix(0.003, 0.010, 0.08, seed=4),
-    "kinky": lambda: _kinky(0.0022, 0.012, seed=5),
+    "kinky": lambda: _zigzag(0.0026, 0.009, 0.2, seed=5, flat=0.8),
     "zigzag": lambda: _zigzag(0.0035, 0.014, 0.1, seed=6),
 }

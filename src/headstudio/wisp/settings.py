@@ -105,7 +105,7 @@ class WispSettings:
         "0.12 hardly resembles it.",
     )
     window: float = number(
-        0.5, "Window", "", 0.1, 2.0, "Length of the compared window (eq. 2), in periods of the prototype."
+        0.5, "Window", "", 0.1, 3.0, "Length of the compared window (eq. 2), in periods of the prototype."
     )
     alignment: float = number(
         0.0, "Alignment", "", 0.0, 1.0, "0: every wisp starts its waves where it likes; 1: all wave together."
