@@ -1,8 +1,8 @@
-"""The deformation solver: Choe, Ko 2005, Algorithm 1."""
+"""The deformation solver: Choe, Ko 2005, Algorithm 1, with the constraint-based styler on top."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,7 +11,9 @@ from ..head.scalp import Scalp
 from .density import DensityField
 from .field import force_field
 from .flow import Flow
+from .hairdressing import queues_of
 from .outlines import Outlines
+from .queues import Queue, QueueReport, run
 from .styling_settings import StylingSettings
 from .surroundings import Surroundings
 
@@ -22,38 +24,67 @@ _TURNS = 2
 @dataclass(frozen=True)
 class DeformReport:
     """What the solver did. segments: how many were laid. colliding: how many met eq. 6 at first. unresolved: how many of
-    these still collided after the last bend and took the least dense direction.
+    these still collided after the last bend and took the least dense direction. queues: what became of every constraint
+    queue, in order.
     """
 
     segments: int
     colliding: int
     unresolved: int
+    queues: tuple[QueueReport, ...] = ()
 
 
 def deform(
-    outlines: Outlines, surroundings: Surroundings, styling: StylingSettings, scalp: Scalp, rng: np.random.Generator
+    outlines: Outlines, surroundings: Surroundings, styling: StylingSettings, scalp: Scalp
 ) -> tuple[Outlines, DeformReport]:
-    """``outlines`` at rest, deformed by the styling force, by each other and by the head (Algorithm 1).
+    """``outlines`` at rest, deformed by the styling force, by each other and by the head, and dressed.
 
-    The algorithm goes from joint to joint, and at every joint from wisp to wisp. Here all wisps of a joint are laid at
-    once, in two interleaved turns: within a turn a wisp does not see what its neighbours add at the same joint, but its
-    nearest neighbours over the scalp are in the other turn, and at the next joint everybody sees everything.
+    First all hair is let down (Algorithm 1). Then the operations are carried out one after the other: the wisps that an
+    operation selects are picked up, their hair leaves the density field, and they are laid again under their queues,
+    among all hair that lies as it lay. So an operation moves no hair but its own, not by a hair's breadth, and what was
+    done before it stays. Hair that several operations select belongs to the last.
     """
+    uv = scalp.locate(outlines.roots)
     density = DensityField.empty(surroundings, scalp.area, int(outlines.strands.sum()))
-    flow = Flow(
-        outlines,
-        density,
-        force_field(styling, surroundings),
-        styling.bending_stiffness,
-        styling.density_threshold,
-    )
-    turns = _turns(scalp.locate(outlines.roots))
-    for _ in range(outlines.frames.shape[1]):
+    field = force_field(styling, surroundings)
+    tau = styling.density_threshold
+    flow = Flow(outlines, density, field, styling.bending_stiffness, tau)
+    longest = float(outlines.counts.max(initial=0) * outlines.segment)
+    steps = [_members(queues_of(operation, surroundings, longest), uv) for operation in styling.operations]
+    if not (steps and sum(len(wisps) for _, wisps in steps[0]) == len(uv)):
+        _let_down(flow, uv, tau)
+    reports = []
+    for queues in steps:
+        flow.pick_up(np.concatenate([wisps for _, wisps in queues]))
+        reports += run(queues, flow, tau)
+    tally = flow.tally
+    return flow.result(), DeformReport(tally.laid, tally.colliding, tally.unresolved, tuple(reports))
+
+
+def _let_down(flow: Flow, uv: Floats, tau: float) -> None:
+    """Lay all hair as it flows, joint by joint.
+
+    At every joint the algorithm goes from wisp to wisp. Here all wisps of a joint are laid at once, in two interleaved
+    turns: within a turn a wisp does not see what others add at the same joint, but its nearest neighbours over the scalp
+    are in the other turn, and at the next joint everybody sees everything.
+    """
+    turns = _turns(uv)
+    for _ in range(flow.frames.shape[1]):
         for turn in turns:
             wisps = flow.unfinished(turn)
-            flow.lay(wisps, flow.styling_force(wisps), np.full(len(wisps), styling.density_threshold))
-    tally = flow.tally
-    return replace(outlines, frames=flow.result()), DeformReport(tally.laid, tally.colliding, tally.unresolved)
+            flow.lay(wisps, flow.styling_force(wisps), np.full(len(wisps), tau))
+
+
+def _members(queues: tuple[Queue, ...], uv: Floats) -> list[tuple[Queue, Ints]]:
+    """The queues of one operation with their wisps; a wisp that several select belongs to the first."""
+    taken = np.zeros(len(uv), dtype=bool)
+    members = []
+    for queue in queues:
+        wisps = queue.wisps(uv)
+        wisps = wisps[~taken[wisps]]
+        taken[wisps] = True
+        members.append((queue, wisps))
+    return members
 
 
 def _turns(uv: Floats) -> list[Ints]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from .outlines import Outlines
 _BEND = math.radians(12)  # Delta theta of Algorithm 1
 _BENDS = 4  # so many before the least dense direction is taken
 _SLIDES = 2  # corrections of a segment that would run into the head
+
+# How fast a wisp that was pressed together grows wide again, on both sides [m per m].
+_WIDEN = 0.3
 
 # How far the middle of a wisp stays off the skin: a floor, and a part of its radius up to a bound [m].
 _CLEARANCE, _RADIUS_PART, _MOST_CLEARANCE = 0.0015, 0.3, 0.005
@@ -43,6 +46,7 @@ class Flow:
         self.laid = np.zeros(len(outlines.counts), dtype=np.int64)
         self.ends = outlines.roots.copy()
         self.tally = Tally()
+        self._widest = np.full(outlines.radii.shape, np.inf)
         self._turned = np.broadcast_to(np.eye(3), (len(self.laid), 3, 3)).copy()
         self._density = density
         self._force = force
@@ -65,6 +69,7 @@ class Flow:
             self._add(wisps[there], joint, middles, frames, -1.0)
             ends[there] += self.outlines.segment * frames[:, :, 2]
         self.laid[wisps] = 0
+        self._widest[wisps] = np.inf
         self.ends[wisps] = self.outlines.roots[wisps]
         self._turned[wisps] = np.eye(3)
 
@@ -91,14 +96,26 @@ class Flow:
         self.laid[wisps] += 1
         self.tally.laid += len(wisps)
 
+    def narrow(self, wisps: Ints, widest: Floats) -> None:
+        """Press ``wisps`` at their ends to radii of at most ``widest`` [m], (k,)."""
+        self._widest[wisps, self.laid[wisps]] = widest
+
     def density_at_ends(self, wisps: Ints) -> Floats:
         """rho at the ends of ``wisps``, (k,)."""
         return self._density.at(self.ends[wisps])[0].astype(np.float64)
 
-    def result(self) -> Floats:
-        """The frames, with the padding behind every tip continuing the last segment."""
+    def result(self) -> Outlines:
+        """The outlines as they are laid, with the padding behind every tip continuing the last segment."""
         last = np.minimum(np.arange(self.frames.shape[1]), self.outlines.counts[:, None] - 1)
-        return np.take_along_axis(self.frames, last[:, :, None, None], axis=1)
+        frames = np.take_along_axis(self.frames, last[:, :, None, None], axis=1)
+        return replace(self.outlines, frames=frames, radii=np.minimum(self.outlines.radii, self._widening()))
+
+    def _widening(self) -> Floats:
+        """Bounds of the radii [m], (W, J + 1): where hair was narrowed, and rising from there to both sides."""
+        rise = _WIDEN * self.outlines.segment * np.arange(self._widest.shape[1])
+        tipward = np.minimum.accumulate(self._widest - rise, axis=1) + rise
+        rootward = np.minimum.accumulate((self._widest + rise)[:, ::-1], axis=1)[:, ::-1] - rise
+        return np.minimum(tipward, rootward)
 
     def _clearance(self, wisps: Ints, joint: Ints) -> Floats:
         """How far off the skin the end of the next segment stays [m], (k,)."""

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..params import number
+from .operations import Cut, Operation
 
 
 def _weight(default: float, label: str, doc: str) -> float:
@@ -18,6 +19,7 @@ class StylingSettings:
     """The styling force field as a weighted sum of presets, and how hair answers to it.
 
     The field at a place is the sum of the presets there, each a vector of length 1 or less times its weight.
+    operations: hairdressing, carried out one after the other. cuts: made when all hair lies as it will.
     """
 
     bending_stiffness: float = number(
@@ -65,3 +67,5 @@ class StylingSettings:
     )
     off_face: float = _weight(0.0, "Off the face", "Weight of the push from the face to the sides.")
     inward: float = _weight(0.0, "Inward", "Weight of the pull toward the neck, which turns the tips of a bob in.")
+    operations: tuple[Operation, ...] = ()
+    cuts: tuple[Cut, ...] = ()

@@ -1,0 +1,140 @@
+"""Hairdressing operations as queues of constraints on one head (Choe, Ko 2005, section 6.2)."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+
+import numpy as np
+
+from ..head.mesh import Floats
+from .braiding import plait
+from .constraints import Constraint, DirectionConstraint, PointConstraint, TrajectoryConstraint
+from .joints import unit
+from .operations import AlongPath, Braid, Bun, Constrain, Place, Step, Tie, ToPoint, Updo
+from .paths import along_skin, hang, off_skin, outward, sideways
+from .queues import Queue
+from .surroundings import Surroundings
+
+# How much longer the locks of a plait are than the plait, and how far hair goes to a knot behind the head, in half
+# diagonals of the skull.
+_TAKE_UP, _TO_KNOT = 1.25, 1.0
+_OFF_SKIN = 0.002  # a tie's edge stays so far off the skin [m]
+
+
+@singledispatch
+def queues_of(operation: object, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+    """The queues that carry out ``operation`` on the head of ``surroundings``, on hair of at most ``longest`` [m]."""
+    raise TypeError(f"{operation!r} is no hairdressing operation")
+
+
+@queues_of.register
+def _constrain(operation: Constrain, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+    return (Queue(operation.selection, tuple(_constraint(step, surroundings) for step in operation.steps)),)
+
+
+def _constraint(step: Step, surroundings: Surroundings) -> Constraint:
+    if isinstance(step, ToPoint):
+        point, _ = _knot(surroundings, step.place, step.tolerance)
+        return PointConstraint(point, step.tolerance, step.weight, surroundings)
+    path = along_skin(surroundings, np.array(step.path), _OFF_SKIN)
+    if isinstance(step, AlongPath):
+        return TrajectoryConstraint(path, step.tolerance, step.weight)
+    return DirectionConstraint(path, step.radius, step.weight)
+
+
+@queues_of.register
+def _tie(operation: Tie, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+    point, away = _knot(surroundings, operation.place, operation.tolerance)
+    constraints: list[Constraint] = [PointConstraint(point, operation.tolerance, operation.weight, surroundings)]
+    if operation.lift > 0:
+        stand = np.array([point, point + operation.lift * away])
+        constraints.append(TrajectoryConstraint(stand, operation.tolerance, operation.weight))
+    return (Queue(operation.selection, tuple(constraints)),)
+
+
+@queues_of.register
+def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+    """A point, then one of the interleaved trajectories for every group, then the tie at the end."""
+    thickness = operation.thickness
+    knot, away = _knot(surroundings, operation.place, 1.5 * thickness)
+    clearance = 2.0 * thickness
+    if operation.path:
+        middle = along_skin(surroundings, np.array(operation.path), clearance)
+    else:
+        # The way to the knot takes some of the hair, and a plait is shorter than its locks.
+        rest = max(longest - _TO_KNOT * float(np.linalg.norm(surroundings.proportions.extent)), 0.3 * longest)
+        middle = hang(surroundings, knot, away, operation.length * rest / _TAKE_UP, clearance)
+    side, front = sideways(surroundings, middle)
+    width = 0.55 * thickness * operation.groups
+    locks = plait(middle, side, front, operation.groups, width, 0.75 * thickness, operation.period)
+    gather = PointConstraint(knot, 1.5 * thickness, 1.0, surroundings)
+    end = PointConstraint(middle[-1], 1.2 * thickness)
+    return tuple(
+        Queue(operation.selection, (gather, TrajectoryConstraint(lock, thickness), end), part, operation.groups)
+        for part, lock in enumerate(locks)
+    )
+
+
+@queues_of.register
+def _bun(operation: Bun, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+    knot, away = _knot(surroundings, operation.place, operation.thickness)
+    coil = _coil(knot, away, operation.radius, operation.thickness, longest)
+    gather = PointConstraint(knot, operation.thickness, 1.0, surroundings)
+    return (Queue(operation.selection, (gather, TrajectoryConstraint(coil, operation.thickness))),)
+
+
+@queues_of.register
+def _updo(operation: Updo, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+    knot, away = _knot(surroundings, operation.place, operation.thickness)
+    gather = PointConstraint(knot, 1.5 * operation.thickness, 1.0, surroundings)
+    angles = 2.0 * np.pi * (np.arange(operation.loops) + 0.5) / operation.loops
+    return tuple(
+        Queue(
+            operation.selection,
+            (gather, TrajectoryConstraint(_loop(knot, away, angle, operation, longest), operation.thickness)),
+            part,
+            operation.loops,
+        )
+        for part, angle in enumerate(angles)
+    )
+
+
+def _knot(surroundings: Surroundings, place: Place, radius: float) -> tuple[Floats, Floats]:
+    """Where a tie of ``radius`` [m] sits for ``place``, clear of the skin [m], (3,), and the direction away from it, (3,)."""
+    point = off_skin(surroundings, surroundings.proportions.place(np.array(place))[None], radius + _OFF_SKIN)
+    return point[0], outward(surroundings, point)[0]
+
+
+def _across(away: Floats) -> tuple[Floats, Floats]:
+    """Two directions across ``away``, (3,): sideways and up."""
+    up = np.array([0.0, 1.0, 0.0]) if abs(away[1]) < 0.95 else np.array([0.0, 0.0, 1.0])
+    side = unit(np.cross(up, away)[None], otherwise=np.array([[1.0, 0.0, 0.0]]))[0]
+    return side, np.cross(away, side)
+
+
+def _coil(knot: Floats, away: Floats, radius: float, thickness: float, length: float) -> Floats:
+    """A path of ``length`` [m] that comes out of the knot, lies around it in a ring and closes it in smaller rings above."""
+    side, up = _across(away)
+    turn = np.linspace(0.0, 2 * np.pi * (1 + length / (2 * np.pi * 0.4 * radius)), 800)
+    rounds = turn / (2 * np.pi)
+    # Out within half a round, one round in full, and from there inward and up, down again where the dome is closed.
+    out = np.minimum(rounds / 0.5, 1.0)
+    inward = np.clip(rounds - 1.3, 0.0, None)
+    ring = radius * out * (0.35 + 0.65 * np.exp(-1.2 * inward))
+    height = thickness * (0.2 + 1.3 * (1.0 - np.exp(-1.2 * inward)))
+    circle = np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * up
+    points = knot + ring[:, None] * circle + height[:, None] * away
+    run = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    return points[run <= length]
+
+
+def _loop(knot: Floats, away: Floats, angle: float, updo: Updo, length: float) -> Floats:
+    """A path of ``length`` [m] that leaves the knot toward ``angle`` [rad] around it and rolls up in loops."""
+    side, up = _across(away)
+    petal = np.cos(angle) * side + np.sin(angle) * up
+    turn = np.arange(0.0, length / updo.radius, 0.1)
+    radius = updo.radius * (0.55 + 0.45 * np.exp(-turn / (3 * np.pi)))
+    # The loop rises off the head, bends outward over the petal and comes back below.
+    out = radius * (1.0 - np.cos(turn))
+    rise = radius * np.sin(turn) + updo.radius * np.minimum(turn, 1.0)
+    return knot + out[:, None] * petal + rise[:, None] * away
