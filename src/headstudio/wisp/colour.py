@@ -101,4 +101,5 @@ def hsv_of_rgb(rgb: Floats) -> Floats:
 def rgb_of_hsv(hsv: Floats) -> Floats:
     """Colours, (n, 3), of hue, saturation and value, (n, 3)."""
     hue, saturation, value = hsv.T[:, :, None]
-    return value * (1 - saturation * np.clip(1 - np.abs((hue * 6 + np.array([3.0, 1.0, 5.0])) % 6 - 3) + 1, 0, 1))
+    sector = (6 * hue + np.array([5.0, 3.0, 1.0])) % 6
+    return value * (1 - saturation * np.clip(np.minimum(sector, 4 - sector), 0.0, 1.0))
