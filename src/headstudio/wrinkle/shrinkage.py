@@ -54,7 +54,8 @@ class ShrinkageGauge:
                 np.linalg.norm(posed[self.corners[..., k]] - start, axis=2) / self.edges[..., k - 1] for k in (1, 2)
             ]
             tiny = np.finfo(float).tiny
-            kept = 1.0 / (self.share / np.maximum(scale[0], tiny) + (1 - self.share) / np.maximum(scale[1], tiny))
+            share = np.clip(self.share, 0.0, 1.0)
+            kept = 1.0 / (share / np.maximum(scale[0], tiny) + (1 - share) / np.maximum(scale[1], tiny))
         else:
             way = self.way @ posed
             kept = np.sqrt(np.einsum("ij,ij->i", way, way)).reshape(self.lengths.shape) / self.lengths

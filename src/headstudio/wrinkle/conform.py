@@ -1,0 +1,132 @@
+"""Edges along the floor of a furrow, so that it is as sharp on the mesh as it is in equation 2.1.
+
+Vertices close to the curve are slid onto it over the surface; where the curve still crosses an edge, the edge is split
+at the crossing. What was a ragged band of triangles across the floor becomes a chain of edges in it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..head.mesh import Floats, Ints
+from .laid_furrow import LaidFurrow
+from .one_to_one import signed_areas
+from .refined_mesh import RefinedMesh
+from .refinement import unique_edges
+from .skin_layout import SkinLayout
+
+# A vertex this close to the curve, as a part of the shortest edge at it, is moved onto it.
+_SNAP = 0.4
+# An edge is cut only where at least this part of it is left on either side.
+_CUT = 0.08
+# A triangle that a moved vertex leaves with less than this part of its area is not worth the move.
+_LEFT = 0.15
+# Where less than this of a furrow's depth is there, it needs no edge.
+_FAINT = 0.02
+
+Mask = np.ndarray
+
+
+def conform(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, fixed: Mask) -> tuple[RefinedMesh, Mask]:
+    """Bring a chain of edges onto a furrow. fixed: vertices that stay where they are, (N,); returned with those on it."""
+    faces = _faces_near(refined, layout, furrow)
+    near = np.unique(refined.faces[faces])
+    beside = furrow.beside(layout.uv(refined, near), layout.metrics(refined, near))
+    signed, t = np.zeros(len(fixed)), np.zeros(len(fixed))
+    useful = np.zeros(len(fixed), dtype=bool)
+    signed[near], t[near] = beside.side * beside.distance, beside.t
+    useful[near] = beside.inside & (beside.fade > _FAINT)
+
+    shortest = _shortest_edges(refined, faces)
+    wanted = near[(np.abs(signed[near]) < _SNAP * shortest[near]) & useful[near] & ~fixed[near]]
+    refined, snapped = _slide(refined, layout, furrow, faces, wanted, t)
+    on_curve = np.zeros(len(fixed), dtype=bool)
+    on_curve[snapped] = True
+
+    edges, edge_of = unique_edges(refined.faces)
+    a, b = edges.T
+    crossed = useful[a] & useful[b] & (signed[a] * signed[b] < 0) & ~on_curve[a] & ~on_curve[b]
+    # Two sides of a fold are far apart along the curve, or farther from it than the edge is long.
+    length = np.linalg.norm(refined.vertices[a] - refined.vertices[b], axis=1)
+    crossed &= np.abs(signed[a]) + np.abs(signed[b]) < 1.5 * length
+    fraction = np.divide(np.abs(signed[a]), np.abs(signed[a]) + np.abs(signed[b]), out=np.zeros(len(a)), where=crossed)
+    crossed &= (fraction > _CUT) & (fraction < 1 - _CUT)
+    if crossed.any():
+        number = np.where(crossed, np.cumsum(crossed) - 1, -1)
+        refined = refined.split(number[edge_of], edges[crossed], fraction[crossed])
+    added = np.ones(len(refined.home) - len(fixed), dtype=bool)
+    return refined, np.concatenate([fixed | on_curve, added])
+
+
+def _faces_near(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow) -> Ints:
+    """Mapped triangles with a corner in the box around the furrow."""
+    margin = 2.0 * furrow.furrow.width
+    low, high = furrow.points.min(axis=0) - margin, furrow.points.max(axis=0) + margin
+    inside = ((refined.vertices > low) & (refined.vertices < high)).all(axis=1)
+    return np.flatnonzero(inside[refined.faces].any(axis=1) & layout.mapped[refined.parent])
+
+
+def _shortest_edges(refined: RefinedMesh, faces: Ints) -> Floats:
+    """The shortest edge of the given triangles at every vertex [m], (N,)."""
+    shortest = np.full(len(refined.home), np.inf)
+    start, end = refined.faces[faces].ravel(), np.roll(refined.faces[faces], -1, axis=1).ravel()
+    length = np.linalg.norm(refined.vertices[start] - refined.vertices[end], axis=1)
+    np.minimum.at(shortest, start, length)
+    np.minimum.at(shortest, end, length)
+    return shortest
+
+
+def _slide(
+    refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, faces: Ints, wanted: Ints, t: Floats
+) -> tuple[RefinedMesh, Ints]:
+    """Move ``wanted`` vertices onto the curve, but for those that would turn a triangle over; and which were moved."""
+    corners = refined.faces[faces]
+    uv, weights = layout.face_uv(refined, faces)
+    uv = np.stack([layout.whole(uv[:, k], float(furrow.chain.controls[:, 0].mean())) for k in range(3)], axis=1)
+    target = np.full((len(refined.home), 2), np.nan)
+    target[wanted] = furrow.place_on_curve(t[wanted])
+    before = signed_areas(uv)
+    moving = np.zeros(len(refined.home), dtype=bool)
+    moving[wanted] = True
+    # A vertex on the rim of the mapped part would pull triangles along that are not looked at.
+    moving[_rim(refined, faces)] = False
+    while True:
+        after = signed_areas(np.where(moving[corners][..., None], target[corners], uv))
+        spoilt = moving[corners] & (after < _LEFT * before)[:, None]
+        if not spoilt.any():
+            break
+        moving[corners[spoilt]] = False
+
+    # The new place lies in one of the triangles around the vertex: the one that holds it best.
+    face, place = np.nonzero(moving[corners])
+    vertex = corners[face, place]
+    local = _barycentric(target[vertex], uv[face])
+    order = np.lexsort((local.min(axis=1), vertex))
+    last = np.flatnonzero(np.append(np.diff(vertex[order]) > 0, len(order) > 0))
+    best = order[last]
+    inside = np.clip(local[best], 0.0, 1.0)
+    inside /= inside.sum(axis=1, keepdims=True)
+    home = refined.parent[faces[face[best]]]
+    places = np.einsum("kc,kci->ki", inside, weights[face[best]])
+    return refined.moved(vertex[best], home, places), vertex[best]
+
+
+def _rim(refined: RefinedMesh, faces: Ints) -> Ints:
+    """Vertices that have triangles besides the given ones, or lie on a border."""
+    count = len(refined.home)
+    edges, edge_of = unique_edges(refined.faces[faces])
+    border = edges[np.bincount(edge_of.ravel(), minlength=len(edges)) == 1]
+    some = np.bincount(refined.faces[faces].ravel(), minlength=count)
+    every = np.bincount(refined.faces.ravel(), minlength=count)
+    return np.union1d(np.flatnonzero(some != every), border.ravel())
+
+
+def _barycentric(points: Floats, triangles: Floats) -> Floats:
+    """Barycentric coordinates, (k, 3), of points, (k, 2), in triangles, (k, 3, 2); negative outside."""
+    whole = signed_areas(triangles)
+    parts = []
+    for k in range(3):
+        piece = triangles.copy()
+        piece[:, k] = points
+        parts.append(signed_areas(piece) / whole)
+    return np.stack(parts, axis=1)

@@ -1,0 +1,134 @@
+"""Skin with large wrinkles, pose after pose: Bando's thesis, sections 2.5.1 and 2.5.3.
+
+Everything that stays the same while the face moves is made once. A pose then costs some sparse products and arithmetic
+on the vertices near furrows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+
+from ..head.mesh import Floats, Ints, TriangleMesh
+from .balance import balanced
+from .blending import Blending
+from .furrow_bed import FurrowBed
+from .metric import perpendicular, vertex_metrics
+from .self_contact import Folds
+from .shape import amplitude, bounded_shape, bounded_slope
+from .shrinkage import Measure, ShrinkageGauge, shrinkage_gauge
+from .smooth_surface import SmoothSurface, unit
+
+
+@dataclass(frozen=True, eq=False)
+class WrinkledSkin:
+    """A posed, wrinkled skin.
+
+    positions: [m], (N, 3); the coarse skin's vertices come first and in order. normals: unit, (N, 3). height: displacement
+    along the normal [m], (N,). shrinkage, amplitude: s and M(s) of every entry of the bed, (i,).
+    """
+
+    positions: Floats
+    normals: Floats
+    height: Floats
+    shrinkage: Floats
+    amplitude: Floats
+
+
+class Creases:
+    """Furrows on a skin, ready for any pose of it.
+
+    faces: triangles of the wrinkled skin, (M, 3), the same for every pose.
+    """
+
+    def __init__(
+        self, bed: FurrowBed, *, strength: float = 1.0, measure: Measure = "three edges", self_contact: bool = True
+    ) -> None:
+        """strength: multiplies every depth. measure: how shrinkage is measured, see shrinkage.py. self_contact: keep both
+        sides of a fold apart."""
+        self.bed = bed
+        self.faces: Ints = bed.refined.faces
+        furrows = [laid.furrow for laid in bed.furrows]
+        depth = strength * np.array([furrow.depth for furrow in furrows])[bed.furrow]
+        width = np.array([furrow.width for furrow in furrows])[bed.furrow]
+        self._initial = np.array([furrow.initial for furrow in furrows])[bed.furrow]
+        self._surface = SmoothSurface(bed.refined, bed.layout, bed.vertex)
+        self._row = self._surface.row_of[bed.vertex]
+
+        beside = bed.beside
+        profile = bounded_shape(beside.distance, depth, width)
+        height = beside.fade * profile
+        slope = beside.fade * bounded_slope(beside.distance, depth, width)
+        gradient = slope[:, None] * beside.toward + profile[:, None] * beside.along
+        self._height = balanced(bed, self._surface, height)
+        scale = np.divide(self._height, height, out=np.ones_like(height), where=height > 0)
+        self._by_u, self._by_v = (scale * gradient[:, k] for k in (0, 1))
+        self._blending = Blending(self._row, self._height)
+        self._folds = Folds(bed, self._surface, self._height) if self_contact else None
+        self._gauge, self._spread = _gauge_beside(bed, measure)
+
+    def displaced(self, posed: Floats) -> WrinkledSkin:
+        """The wrinkled skin for posed positions of the whole skin [m], (n, 3).
+
+        Shrinkage across each furrow (2.3), between vertices interpolated, gives the amplitude M(s) (2.4); M times S(l)
+        (2.1) displaces along the normals.
+        """
+        shrinkage = self._spread @ self._gauge.shrinkage(posed)
+        grown = amplitude(shrinkage, self._initial)
+        share = self._blending.applied(grown)
+        surface = self._surface.at(posed)
+
+        rows = len(self._surface.vertices)
+        height, by_u, by_v = (
+            np.bincount(self._row, share * values, minlength=rows) for values in (self._height, self._by_u, self._by_v)
+        )
+        if self._folds is not None:
+            height = self._folds.clamped(height, posed, surface)
+        positions, normals, heights = self._whole(posed, surface.coarse_normals)
+        fine = self._surface.vertices
+        positions[fine] = surface.positions + height[:, None] * surface.normals
+        normals[fine] = unit(surface.normals - by_u[:, None] * surface.by_u - by_v[:, None] * surface.by_v)
+        heights[fine] = height
+        return WrinkledSkin(positions, normals, heights, shrinkage, grown)
+
+    def mesh(self, skin: WrinkledSkin) -> TriangleMesh:
+        """The wrinkled skin as a mesh that is shaded with its own normals."""
+        mesh = TriangleMesh(skin.positions, self.faces)
+        # Computed anew from the triangles they would show the border of the refinement.
+        mesh.__dict__["vertex_normals"] = skin.normals
+        return mesh
+
+    def _whole(self, posed: Floats, normals: Floats) -> tuple[Floats, Floats, Floats]:
+        """Positions, normals and heights of the whole refined skin, those of the coarse vertices filled in."""
+        count = len(self.bed.refined.home)
+        places, directions = np.empty((count, 3)), np.empty((count, 3))
+        places[: len(posed)], directions[: len(posed)] = posed, normals
+        return places, directions, np.zeros(count)
+
+
+def _gauge_beside(bed: FurrowBed, measure: Measure) -> tuple[ShrinkageGauge, sparse.csr_array]:
+    """A gauge at every coarse vertex across every furrow near it, and the matrix that spreads s to the bed's entries."""
+    layout, refined = bed.layout, bed.refined
+    corners = layout.skin.faces[refined.home[bed.vertex]]
+    weights = refined.weights[bed.vertex]
+    count = len(layout.skin.vertices)
+    keys, column = np.unique(corners + count * bed.furrow[:, None], return_inverse=True)
+    furrow, vertex = np.divmod(keys, count)
+    spread = sparse.csr_array(
+        (weights.ravel(), column.ravel(), 3 * np.arange(len(weights) + 1)), shape=(len(weights), len(keys))
+    )
+    in_part = np.full(count, -1)
+    in_part[layout.part.vertices] = np.arange(len(layout.part.vertices))
+    own = in_part[vertex]
+    metrics = vertex_metrics(layout.texture_map)[own]
+    across = np.empty((len(keys), 2))
+    for k, laid in enumerate(bed.furrows):
+        mine = furrow == k
+        beside = laid.beside(layout.texture_map.uv[own[mine]], metrics[mine])
+        across[mine] = perpendicular(laid.chain.tangents(beside.t), metrics[mine])
+    gauge = shrinkage_gauge(
+        layout.texture_map, own, across, measure, skin_vertices=layout.part.vertices, skin_count=count
+    )
+    return gauge, spread

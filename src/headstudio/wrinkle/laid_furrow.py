@@ -1,0 +1,111 @@
+"""A furrow on a mapped skin: its length in metres, and where points of the skin lie beside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..head.mesh import Floats
+from .bezier import BezierChain
+from .furrow import Furrow
+from .nearest import nearest_on_curve
+from .shape import REACH
+from .skin_layout import SkinLayout
+
+# Samples a curve, for lengths along it.
+_SAMPLES = 64
+# A furrow fades out toward its ends over this many widths, or this part of its length if that is more.
+_FADE_WIDTHS, _FADE_PART = 4.0, 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Where k points lie beside a furrow.
+
+    t: parameter of the nearest point of the curve, (k,). distance: to it on the skin [m], (k,). side: 1 left, -1 right,
+    (k,). inside: whether the point lies beside the curve and not past an end, (k,). fade: how much of the depth is
+    there, 0 at the ends to 1, (k,). toward: gradient of the distance in texture space [m], (k, 2), zero on the curve.
+    along: gradient of the fade [1], (k, 2).
+    """
+
+    t: Floats
+    distance: Floats
+    side: Floats
+    inside: np.ndarray
+    fade: Floats
+    toward: Floats
+    along: Floats
+
+
+class LaidFurrow:
+    """A furrow whose control points are in texture space, on a skin.
+
+    points: samples of it on the skin [m], (k, 3). length: [m]. reach: how far from the curve it displaces the skin [m].
+    """
+
+    def __init__(self, furrow: Furrow, layout: SkinLayout) -> None:
+        self.furrow = furrow
+        self.layout = layout
+        self.chain: BezierChain = furrow.chain
+        self.reach = REACH * furrow.width
+        self._t, places = self.chain.sampled(_SAMPLES)
+        found, _ = layout.locate(places)
+        mesh = layout.texture_map.mesh
+        self.points = found.blend(mesh.vertices, mesh.faces)
+        corner_metrics = layout.corner_metrics[layout.part.faces[found.faces]]
+        self._metrics = np.einsum("ki,kiab->kab", found.weights, corner_metrics)
+        steps = np.diff(places, axis=0)
+        between = 0.5 * (self._metrics[1:] + self._metrics[:-1])
+        self._arc = np.concatenate([[0.0], np.cumsum(np.sqrt(np.einsum("ki,kij,kj->k", steps, between, steps)))])
+
+    @property
+    def length(self) -> float:
+        """Length on the skin [m]."""
+        return float(self._arc[-1])
+
+    @property
+    def fade_length(self) -> float:
+        """Over how much of its length the furrow comes to full depth at either end [m]."""
+        return min(max(_FADE_WIDTHS * self.furrow.width, _FADE_PART * self.length), 0.5 * self.length)
+
+    def line(self, spacing: float) -> Floats:
+        """Points along the furrow on the skin [m], no farther apart than ``spacing`` [m], (k, 3)."""
+        count = max(int(np.ceil(self.length / spacing)), 2)
+        at = np.linspace(0.0, self.length, count + 1)
+        return np.stack([np.interp(at, self._arc, self.points[:, k]) for k in range(3)], axis=1)
+
+    def place_on_curve(self, t: Floats) -> Floats:
+        """Texture coordinates of points of the curve, (k, 2)."""
+        return self.chain.at(t)
+
+    def beside(self, uv: Floats, metrics: Floats) -> Beside:
+        """Where points of texture space, (k, 2), lie beside the furrow. metrics: G there, (k, 2, 2).
+
+        Lengths are measured with the mean of G at the point and at the curve.
+        """
+        places = self.layout.whole(uv, float(self.chain.controls[:, 0].mean()))
+        first = nearest_on_curve(self.chain, places, metrics)
+        mean = 0.5 * (metrics + self._metrics_at(first.t))
+        found = nearest_on_curve(self.chain, places, mean)
+        covector = np.einsum("kij,kj->ki", mean, places - self.chain.at(found.t))
+        toward = _divided(covector, found.distance)
+
+        tangent = self.chain.tangents(found.t)
+        arc = np.interp(found.t, self._t, self._arc)
+        from_end = np.minimum(arc, self.length - arc)
+        part = np.clip(from_end / self.fade_length, 0.0, 1.0)
+        rise = 6 * part * (1 - part) / self.fade_length * np.where(arc < 0.5 * self.length, 1.0, -1.0)
+        along = np.einsum("kij,kj->ki", mean, tangent)
+        along = _divided(along, np.sqrt(np.einsum("ki,ki->k", along, tangent)))
+        return Beside(
+            found.t, found.distance, found.side, ~found.beyond, part**2 * (3 - 2 * part), toward, rise[:, None] * along
+        )
+
+    def _metrics_at(self, t: Floats) -> Floats:
+        flat = self._metrics.reshape(-1, 4)
+        return np.stack([np.interp(t, self._t, flat[:, k]) for k in range(4)], axis=1).reshape(-1, 2, 2)
+
+
+def _divided(vectors: Floats, lengths: Floats) -> Floats:
+    return np.divide(vectors, lengths[:, None], out=np.zeros_like(vectors), where=lengths[:, None] > 0)

@@ -1,0 +1,125 @@
+"""A mesh with more triangles on the same surface, each vertex at a known place of the coarse mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from ..head.mesh import Floats, Ints, TriangleMesh
+
+
+@dataclass(frozen=True, eq=False)
+class RefinedMesh:
+    """Triangles within the triangles of a coarse mesh, sharing every edge: no cracks and no T-junctions.
+
+    coarse: n vertices, m triangles; its vertices come first and in order. home: the coarse triangle that each vertex lies
+    in, (N,). weights: where in it, (N, 3). faces: (M, 3). parent: the coarse triangle that each of them lies in, (M,).
+    """
+
+    coarse: TriangleMesh
+    home: Ints
+    weights: Floats
+    faces: Ints
+    parent: Ints
+
+    @classmethod
+    def unrefined(cls, coarse: TriangleMesh) -> RefinedMesh:
+        """The coarse mesh itself. A vertex without a triangle is put into triangle 0 with no weight; it never moves."""
+        count = len(coarse.vertices)
+        home, weights = np.zeros(count, dtype=np.int64), np.zeros((count, 3))
+        for k in range(3):
+            corner = coarse.faces[:, k]
+            home[corner] = np.arange(len(coarse.faces))
+            weights[corner] = 0.0
+            weights[corner, k] = 1.0
+        return cls(coarse, home, weights, coarse.faces, np.arange(len(coarse.faces)))
+
+    @cached_property
+    def vertices(self) -> Floats:
+        """Positions on the flat triangles of the coarse mesh [m], (N, 3)."""
+        places = np.einsum("ij,ijk->ik", self.weights, self.coarse.vertices[self.coarse.faces[self.home]])
+        loose = self.weights.sum(axis=1) == 0
+        places[loose] = self.coarse.vertices[np.flatnonzero(loose)]
+        return places
+
+    @cached_property
+    def added(self) -> Ints:
+        """The vertices that are not simply a vertex of the coarse mesh: new ones, and those that were moved."""
+        count = len(self.coarse.vertices)
+        same = (self.weights[:count] == 1.0) & (self.coarse.faces[self.home[:count]] == np.arange(count)[:, None])
+        loose = self.weights[:count].sum(axis=1) == 0
+        return np.concatenate([np.flatnonzero(~same.any(axis=1) & ~loose), np.arange(count, len(self.home))])
+
+    def interpolation(self, vertices: Ints) -> sparse.csr_array:
+        """The matrix, (k, n), that makes anything linear at ``vertices`` from its values at the coarse vertices."""
+        columns = self.coarse.faces[self.home[vertices]].ravel()
+        pointers = 3 * np.arange(len(vertices) + 1)
+        matrix = sparse.csr_array(
+            (self.weights[vertices].ravel(), columns, pointers), shape=(len(vertices), len(self.coarse.vertices))
+        )
+        matrix.eliminate_zeros()
+        return matrix
+
+    def weights_in(self, vertices: Ints, triangles: Ints) -> Floats:
+        """The weights of vertices, (...), in coarse triangles, (...), that they touch: (..., 3)."""
+        theirs, wanted = self.coarse.faces[self.home[vertices]], self.coarse.faces[triangles]
+        return np.einsum("...i,...ij->...j", self.weights[vertices], theirs[..., :, None] == wanted[..., None, :])
+
+    def split(self, edge_of: Ints, edges: Ints, fraction: Floats) -> RefinedMesh:
+        """The mesh with a new vertex on some of its edges.
+
+        edges: their ends, (e, 2). fraction: where along them, (e,). edge_of: for the edges 0-1, 1-2 and 2-0 of every
+        triangle which of these it is, or -1, (M, 3).
+        """
+        count = len(self.home)
+        # Every edge has some triangle; its parent holds both ends.
+        owner = np.empty(len(edges), dtype=np.int64)
+        has = edge_of >= 0
+        owner[edge_of[has]] = np.broadcast_to(self.parent[:, None], edge_of.shape)[has]
+        part = fraction[:, None]
+        weights = (1 - part) * self.weights_in(edges[:, 0], owner) + part * self.weights_in(edges[:, 1], owner)
+        refined = RefinedMesh(
+            self.coarse,
+            np.concatenate([self.home, owner]),
+            np.concatenate([self.weights, weights]),
+            self.faces,
+            self.parent,
+        )
+        middle = np.where(has, count + edge_of, -1)
+        faces, source = _split_triangles(self.faces, middle, refined.vertices)
+        return RefinedMesh(self.coarse, refined.home, refined.weights, faces, self.parent[source])
+
+    def moved(self, vertices: Ints, home: Ints, weights: Floats) -> RefinedMesh:
+        """The mesh with some vertices, (k,), at other places of the surface."""
+        homes, places = self.home.copy(), self.weights.copy()
+        homes[vertices], places[vertices] = home, weights
+        return RefinedMesh(self.coarse, homes, places, self.faces, self.parent)
+
+
+def _split_triangles(faces: Ints, middle: Ints, vertices: Floats) -> tuple[Ints, Ints]:
+    """Triangles split at the vertices on their edges 0-1, 1-2, 2-0 (-1: none), and which triangle each piece is of."""
+    split = middle >= 0
+    count = split.sum(axis=1)
+    # Turned so that a lone split edge is 0-1, and the edge that is left whole is 2-0.
+    first = split & ((count == 3)[:, None] | ~np.roll(split, 1, axis=1))
+    turn = (first.argmax(axis=1)[:, None] + np.arange(3)) % 3
+    (a, b, c), (ab, bc, ca) = np.take_along_axis(faces, turn, 1).T, np.take_along_axis(middle, turn, 1).T
+
+    def distance(p: Ints, q: Ints) -> Floats:
+        return np.linalg.norm(vertices[p] - vertices[q], axis=1)
+
+    # Two split edges leave a quadrilateral a ab bc c, three a middle triangle; the quadrilateral takes its shorter
+    # diagonal.
+    shorter = distance(a, bc) <= distance(ab, c)
+    cases = [
+        (count == 0, [(a, b, c)]),
+        (count == 1, [(a, ab, c), (ab, b, c)]),
+        ((count == 2) & shorter, [(ab, b, bc), (a, ab, bc), (a, bc, c)]),
+        ((count == 2) & ~shorter, [(ab, b, bc), (a, ab, c), (ab, bc, c)]),
+        (count == 3, [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]),
+    ]
+    pieces = [(np.stack(piece, axis=1)[case], np.flatnonzero(case)) for case, parts in cases for piece in parts]
+    return np.concatenate([piece for piece, _ in pieces]), np.concatenate([source for _, source in pieces])
