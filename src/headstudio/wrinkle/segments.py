@@ -13,6 +13,8 @@ from .texels import Flags
 
 # How near to its end, as a part of its length, a segment still counts as met: nothing slips through a joint.
 TOUCH = 1e-9
+# Segments that are compared with their neighbours in one go: the pairs fit into the cache of a processor.
+_AT_ONCE = 2048
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,36 +57,44 @@ class Segments:
 class Meetings(NamedTuple):
     """Pairs of a segment and one that stands in its way, each (p,).
 
-    segments: index of the one that arrives. others: index of the one that is there. parts: how far along the first,
-    other_parts: how far along the second they meet, 0 to 1.
+    arriving: index of the one that arrives. present: number of the one that is there. parts: how far along the first,
+    present_parts: how far along the second they meet, 0 to 1.
     """
 
-    segments: Ints
-    others: Ints
+    arriving: Ints
+    present: Ints
     parts: Floats
-    other_parts: Floats
+    present_parts: Floats
 
 
 class SegmentGrid:
-    """Finds segments near a point: a grid whose cells list the segments that have their middle there.
+    """Numbers segments as they come and finds those near a point.
 
-    Cells are at least as large as the distance asked for, so that whatever is near lies in nine cells. A cell is a row
-    of a table; the table gets wider when one is full.
+    A grid whose cells list the segments that have their middle there. Cells are at least as large as the distance asked
+    for, so that whatever is near lies in nine cells. A cell is a row of a table, which gets wider when one is full.
     """
 
     def __init__(self, size: int, period: int, distance: float) -> None:
         """size: edge of the image [texels]. period: see TexelMap. distance: the farthest two neighbours are apart."""
-        self._count = max(int(size / distance), 1)
-        self._cell = size / self._count
-        self._wrapped = period > 0
+        self._cells_across = max(int(size / distance), 1)
+        self._cell = size / self._cells_across
+        self._period = period
         # Two empty cells all around: what lies outside the image is in the first, its neighbours may be in the second.
-        self._side = self._count + 4
+        self._side = self._cells_across + 4
         self._table = np.full((self._side**2, 4), -1, dtype=np.int64)
         self._fill = np.zeros(self._side**2, dtype=np.int64)
+        self._lines = np.empty((1024, 5))
+        self.count = 0
 
-    def add(self, middles: Floats, numbers: Ints) -> None:
-        """Enter segments, by number, (k,), at their middles [texels], (k, 2)."""
-        cells = self._cells(*self._place(middles))
+    def add(self, segments: Segments) -> None:
+        """Enter segments as they were grown; their numbers go on from those that are there."""
+        numbers = self.count + np.arange(len(segments))
+        self.count += len(segments)
+        if self.count > len(self._lines):
+            self._lines = np.concatenate([self._lines, np.empty((2 * self.count, 5))])
+        self._lines[numbers] = np.column_stack([segments.starts, segments.steps, segments.reach])
+
+        cells = self._cells_of(numbers)
         order = np.argsort(cells, kind="stable")
         cells = cells[order]
         slots = self._fill[cells] + np.arange(len(cells)) - np.searchsorted(cells, cells)
@@ -94,12 +104,12 @@ class SegmentGrid:
         self._table[cells, slots] = numbers[order]
         np.add.at(self._fill, cells, 1)
 
-    def forget(self, middles: Floats) -> None:
-        """Take out as many of the last entries as there are ``middles`` [texels], (k, 2), in their cells."""
-        cells = self._cells(*self._place(middles))
-        np.subtract.at(self._fill, cells, 1)
-        for slot in range(self._table.shape[1]):
-            self._table[cells[self._fill[cells] <= slot], slot] = -1
+    def clear(self) -> None:
+        """Take out all segments."""
+        cells = self._cells_of(np.arange(self.count))
+        self._table[cells] = -1
+        self._fill[cells] = 0
+        self.count = 0
 
     def near(self, points: Floats) -> tuple[Ints, Ints]:
         """Pairs (index of a point, number of a segment) of all that may be near, both (p,). points: (k, 2)."""
@@ -110,28 +120,51 @@ class SegmentGrid:
         at, slot = np.nonzero(found >= 0)
         return at, found[at, slot]
 
+    def meetings(self, arriving: Segments) -> Meetings:
+        """Where segments, taken as grown, meet those in the grid as far as these reach; parallel ones do not meet."""
+        portions = np.array_split(np.arange(len(arriving)), -(-len(arriving) // _AT_ONCE) or 1)
+        found = [self._meetings(arriving, portion) for portion in portions]
+        return Meetings(*(np.concatenate(column) for column in zip(*found)))
+
+    def _meetings(self, arriving: Segments, portion: Ints) -> Meetings:
+        at, number = self.near(arriving.starts[portion] + 0.5 * arriving.steps[portion])
+        at = portion[at]
+        step, across = arriving.steps[at], self._lines[number, 2:4]
+        offset = shorter_way(self._lines[number, :2] - arriving.starts[at], self._period)
+        turn = cross(step, across)
+        turn = np.where(turn == 0, np.nan, turn)
+        part, other = cross(offset, across) / turn, cross(offset, step) / turn
+        met = (np.abs(part - 0.5) <= 0.5 + TOUCH) & (other >= -TOUCH) & (other <= self._lines[number, 4] + TOUCH)
+        return Meetings(at[met], number[met], part[met].clip(0, 1), other[met].clip(0, 1))
+
+    def covering(self, points: Floats, radii: Floats) -> Meetings:
+        """Which segments, as they grow, come as near to ``points`` [texels], (k, 2), as they claim, and when first.
+
+        radii: what each segment of the grid claims on both sides [texels], (count,). Here ``arriving`` are the points,
+        and their ``parts`` are 0.
+        """
+        at, number = self.near(points)
+        step = self._lines[number, 2:4]
+        offset = shorter_way(points[at] - self._lines[number, :2], self._period)
+        length = np.hypot(step[:, 0], step[:, 1])
+        along = (offset * step).sum(axis=1) / length
+        away, radius = (offset**2).sum(axis=1), radii[number]
+        chord = np.sqrt(np.maximum(radius**2 - (away - along**2), 0.0))
+        part = np.where(away <= radius**2, 0.0, (along - chord) / length)
+        within = (away - along**2 <= radius**2) & (part >= 0) & (part <= 1)
+        return Meetings(at[within], number[within], np.zeros(within.sum()), part[within])
+
+    def _cells_of(self, numbers: Ints) -> Ints:
+        lines = self._lines[numbers]
+        return self._cells(*self._place(lines[:, :2] + 0.5 * lines[:, 2:4]))
+
     def _place(self, points: Floats) -> tuple[Ints, Ints]:
         """Row and column of the cell of each point, (k, 2); those outside the image in the border."""
         place = np.floor(points / self._cell).astype(np.int64)
-        column = place[:, 0] % self._count if self._wrapped else place[:, 0].clip(-1, self._count)
-        return place[:, 1].clip(-1, self._count), column
+        column = place[:, 0] if self._period else place[:, 0].clip(-1, self._cells_across)
+        return place[:, 1].clip(-1, self._cells_across), column
 
     def _cells(self, row: Ints, column: Ints) -> Ints:
-        if self._wrapped:
-            column = column % self._count
+        if self._period:
+            column = column % self._cells_across
         return (row + 2) * self._side + column + 2
-
-
-def meetings(grid: SegmentGrid, arriving: Segments, present: Segments, period: int) -> Meetings:
-    """Where ``arriving`` segments meet any of ``present``, all of which stand in the grid by their index.
-
-    Both are taken as grown; the caller knows how far they reach. Parallel segments do not meet.
-    """
-    at, other = grid.near(arriving.starts + 0.5 * arriving.steps)
-    step, across = arriving.steps[at], present.steps[other]
-    offset = shorter_way(present.starts[other] - arriving.starts[at], period)
-    turn = cross(step, across)
-    turn = np.where(turn == 0, np.nan, turn)
-    part, other_part = cross(offset, across) / turn, cross(offset, step) / turn
-    met = (np.abs(part - 0.5) <= 0.5 + TOUCH) & (np.abs(other_part - 0.5) <= 0.5 + TOUCH)
-    return Meetings(at[met], other[met], part[met].clip(0, 1), other_part[met].clip(0, 1))

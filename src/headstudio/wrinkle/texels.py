@@ -119,4 +119,3 @@ def _row_spans(corners: Floats, level: Floats) -> tuple[Floats, Floats]:
     left, right = np.where(met, x, np.inf).min(axis=1), np.where(met, x, -np.inf).max(axis=1)
     # A triangle without height meets no row.
     return np.where(met.any(axis=1), left, 0.0), np.where(met.any(axis=1), right, -1.0)
-
