@@ -23,7 +23,7 @@ from .makehuman_data import (
 from .mesh import Floats, TriangleMesh
 from .subdivision import QuadMesh, catmull_clark
 
-_DECIMETRE = 0.1
+DECIMETRE = 0.1
 
 # Vertices of the base mesh that anatomy names.
 _LANDMARKS = {
@@ -67,9 +67,9 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
             raise HeadError(f"MakeHuman's {name} goes from 0 to 1; got {value:g}")
     folder = data_folder()
     base = read_base_mesh(folder)
-    shape = _shape(base, folder, age, masculine)
+    shape = blended_body(folder, age, masculine)
     origin = base.joint("head", shape)
-    vertices = (shape - origin) * _DECIMETRE
+    vertices = (shape - origin) * DECIMETRE
 
     eyes = tuple(_eye(base, vertices, side) for side in ("l", "r"))
     body, carry = _smooth_body(base, vertices)
@@ -92,9 +92,9 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
     )
 
 
-def _shape(base: BaseMesh, folder: Path, age: float, masculine: float) -> Floats:
+def blended_body(folder: Path, age: float, masculine: float) -> Floats:
     """The whole body blended from MakeHuman's macro targets [dm], the mean over its ethnic forms."""
-    vertices = base.vertices.copy()
+    vertices = read_base_mesh(folder).vertices.copy()
     for sex, sex_weight in (("female", 1.0 - masculine), ("male", masculine)):
         for years, age_weight in (("young", 1.0 - age), ("old", age)):
             weight = sex_weight * age_weight
@@ -158,7 +158,7 @@ def _expressions(folder: Path, count: int, carry: sparse.csr_array) -> dict[str,
     """MakeHuman's expression units on the skin of the bust [m]."""
     expressions = {}
     for name in expression_names(folder):
-        offsets = carry @ (expression_offsets(folder, name, count) * _DECIMETRE)
+        offsets = carry @ (expression_offsets(folder, name, count) * DECIMETRE)
         moved = np.nonzero(np.abs(offsets).max(axis=1) > _SMALLEST_OFFSET)[0]
         expressions[name] = Expression(moved, offsets[moved])
     return expressions
