@@ -19,6 +19,7 @@ from PIL import Image, UnidentifiedImageError
 
 from ..head.scalp_settings import GrayImage
 from ..params import ParameterError
+from ..wisp import styling_codec
 from ..wisp.curves import checked_curve
 from ..wisp.settings import CurvePoints, Path3D
 from ..wrinkle.face_settings import SLIDERS
@@ -133,6 +134,15 @@ def decode_performance(content: bytes) -> Performance:
     return check_performance(keys, SLIDERS)
 
 
+def _styling(field: str, kinds: styling_codec.Kinds) -> Attachment:
+    return Attachment(
+        f"styling.{field}",
+        f"styling/{field}.json",
+        lambda items: styling_codec.encode(items, kinds),
+        lambda content: styling_codec.decode(content, kinds),
+    )
+
+
 ATTACHMENTS = (
     Attachment("scalp.curves", "scalp/curves.json", encode_curves, decode_curves),
     Attachment("scalp.painted_lengths", "scalp/lengths.png", encode_gray, decode_gray),
@@ -145,4 +155,8 @@ ATTACHMENTS = (
     Attachment("wisp.painted_protrusion", "wisp/protrusion.png", encode_gray, decode_gray),
     Attachment("face.painted_tissue", "face/tissue.png", encode_gray, decode_gray),
     Attachment("face.performance", "face/performance.json", encode_performance, decode_performance),
+    _styling("strokes", styling_codec.STROKES),
+    _styling("operations", styling_codec.OPERATIONS),
+    _styling("cuts", styling_codec.CUTS),
+    _styling("accessories", styling_codec.ACCESSORIES),
 )

@@ -200,7 +200,7 @@ class TrajectoryConstraint:
 
     def pull(self, ends: Floats, lanes: Floats, progress: Progress, segment: float) -> Pull:
         """Along the trajectory, and toward it in the measure of the distance."""
-        ahead = int(round(_AHEAD * segment / SAMPLING))
+        ahead = round(_AHEAD * segment / SAMPLING)
         goal = self.path.samples[np.minimum(progress.along + ahead, len(self.path.samples) - 1)]
         way = goal + self._offset(lanes) - ends
         astray = np.minimum(self._off(ends, lanes, progress.along) / self.tolerance, 1.0)

@@ -54,8 +54,9 @@ class DensityField:
         density, slope = self.grid.value_and_gradient(self.hair, points)
         distance, outward = self.surroundings.distance_and_gradient(points)
         head = np.clip(1.0 - distance / _SKIN_DEPTH, 0.0, 1.0)
-        edge = np.where(distance < _SKIN_DEPTH, np.float32(-1 / _SKIN_DEPTH), np.float32(0))
-        return density + head, slope + edge[:, None] * outward
+        edge = np.float32(-1 / _SKIN_DEPTH) * (distance < _SKIN_DEPTH)
+        slope += edge[:, None].astype(np.float32) * outward
+        return density + head, slope
 
     def added(self, amounts: Floats) -> Floats:
         """rho_Delta of eq. 6: what segments of ``amounts`` strand-metres would add in their own middle, (k,)."""

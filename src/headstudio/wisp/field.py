@@ -11,6 +11,7 @@ import numpy as np
 from ..head.mesh import Floats
 from .grid import Grid
 from .strands import Singles
+from .strokes import follow_strokes
 from .styling_settings import StylingSettings
 from .surroundings import Surroundings
 
@@ -32,7 +33,7 @@ class ForceField:
 
 @lru_cache(maxsize=4)
 def force_field(styling: StylingSettings, surroundings: Surroundings) -> ForceField:
-    """The weighted sum of the presets around a head."""
+    """The weighted sum of the presets around a head, bent by the strokes."""
     grid = Grid.over(surroundings.low, surroundings.high, _SPACING)
     places = surroundings.proportions.measure(grid.nodes)
     total = np.zeros((grid.size, 3))
@@ -40,6 +41,8 @@ def force_field(styling: StylingSettings, surroundings: Surroundings) -> ForceFi
         weight = getattr(styling, name)
         if weight:
             total += weight * preset(places, styling)
+    if styling.strokes:
+        total = follow_strokes(total, grid, styling.strokes, surroundings.proportions, styling.stroke_reach)
     return ForceField(grid, total.astype(np.float32))
 
 

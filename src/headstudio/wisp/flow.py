@@ -46,13 +46,13 @@ class Flow:
         self.laid = np.zeros(len(outlines.counts), dtype=np.int64)
         self.ends = outlines.roots.copy()
         self.tally = Tally()
-        self._widest = np.full(outlines.radii.shape, np.inf)
+        self._widest: Floats = np.full(outlines.radii.shape, np.inf)
         self._turned = np.broadcast_to(np.eye(3), (len(self.laid), 3, 3)).copy()
         self._density = density
         self._force = force
         self._tau = tau
         self._kappa = joint_stiffness(kappa, outlines.segment)
-        self._amounts = outlines.strands * outlines.segment
+        self._amounts = (outlines.strands * outlines.segment).astype(np.float64)
 
     def unfinished(self, wisps: Ints) -> Ints:
         """Those of ``wisps`` that have segments left to lay."""

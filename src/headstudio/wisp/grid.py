@@ -64,7 +64,7 @@ class Grid:
         return (_STEPS @ self._strides).astype(np.intp)
 
     def cells(self, points: Floats | Singles) -> tuple[Corners, Singles]:
-        """Numbers of the eight nodes around each of ``points`` [m], (k, 3): (k, 8); and the place inside the cell, 0 to 1, (k, 3)."""
+        """Numbers of the eight nodes around ``points`` [m], (k, 3): (k, 8); and where in the cell they are, 0 to 1, (k, 3)."""
         at = (points.astype(np.float32, copy=False) - self._origin) * np.float32(1 / self.spacing)
         np.clip(at, 0, self._last, out=at)
         cell = at.astype(np.intp)
@@ -98,7 +98,8 @@ class Grid:
             ],
             axis=1,
         )
-        return line[:, 0] + z[:, 0] * along_z, gradient / np.float32(self.spacing)
+        gradient *= np.float32(1 / self.spacing)
+        return line[:, 0] + z[:, 0] * along_z, gradient
 
 
 def corner_weights(at: Singles) -> Singles:

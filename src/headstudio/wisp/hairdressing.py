@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import singledispatch
 
 import numpy as np
@@ -10,7 +11,7 @@ from ..head.mesh import Floats
 from .braiding import plait
 from .constraints import Constraint, DirectionConstraint, PointConstraint, TrajectoryConstraint
 from .joints import unit
-from .operations import AlongPath, Braid, Bun, Constrain, Place, Step, Tie, ToPoint, Updo
+from .operations import AlongPath, Braid, Bun, Constrain, Operation, Place, Step, Tie, ToPoint, Updo
 from .paths import along_skin, hang, off_skin, outward, sideways
 from .queues import Queue
 from .surroundings import Surroundings
@@ -18,6 +19,7 @@ from .surroundings import Surroundings
 # How much longer the locks of a plait are than the plait, and how far hair goes to a knot behind the head, in half
 # diagonals of the skull.
 _TAKE_UP, _TO_KNOT = 1.25, 1.0
+_DOWN = np.array([[0.0, -1.0, 0.0]])
 _OFF_SKIN = 0.002  # a tie's edge stays so far off the skin [m]
 
 
@@ -56,14 +58,7 @@ def _tie(operation: Tie, surroundings: Surroundings, longest: float) -> tuple[Qu
 def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
     """A point, then one of the interleaved trajectories for every group, then the tie at the end."""
     thickness = operation.thickness
-    knot, away = _knot(surroundings, operation.place, 1.5 * thickness)
-    clearance = 2.0 * thickness
-    if operation.path:
-        middle = along_skin(surroundings, np.array(operation.path), clearance)
-    else:
-        # The way to the knot takes some of the hair, and a plait is shorter than its locks.
-        rest = max(longest - _TO_KNOT * float(np.linalg.norm(surroundings.proportions.extent)), 0.3 * longest)
-        middle = hang(surroundings, knot, away, operation.length * rest / _TAKE_UP, clearance)
+    knot, middle = _braid_path(operation, surroundings, longest)
     side, front = sideways(surroundings, middle)
     width = 0.55 * thickness * operation.groups
     locks = plait(middle, side, front, operation.groups, width, 0.75 * thickness, operation.period)
@@ -73,6 +68,17 @@ def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tupl
         Queue(operation.selection, (gather, TrajectoryConstraint(lock, thickness), end), part, operation.groups)
         for part, lock in enumerate(locks)
     )
+
+
+def _braid_path(operation: Braid, surroundings: Surroundings, longest: float) -> tuple[Floats, Floats]:
+    """Where a braid starts [m], (3,), and the path it lies on [m], (n, 3)."""
+    knot, away = _knot(surroundings, operation.place, 1.5 * operation.thickness)
+    clearance = 2.0 * operation.thickness
+    if operation.path:
+        return knot, along_skin(surroundings, np.array(operation.path), clearance)
+    # The way to the knot takes some of the hair, and a plait is shorter than its locks.
+    rest = max(longest - _TO_KNOT * float(np.linalg.norm(surroundings.proportions.extent)), 0.3 * longest)
+    return knot, hang(surroundings, knot, away, operation.length * rest / _TAKE_UP, clearance)
 
 
 @queues_of.register
@@ -97,6 +103,28 @@ def _updo(operation: Updo, surroundings: Surroundings, longest: float) -> tuple[
         )
         for part, angle in enumerate(angles)
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Elastic:
+    """An elastic around a knot: its middle [m], (3,), which way the hair runs in it, (3,), its radius [m], its colour."""
+
+    middle: Floats
+    axis: Floats
+    radius: float
+    colour: tuple[float, float, float]
+
+
+def elastic_of(operation: Operation, surroundings: Surroundings, longest: float) -> Elastic | None:
+    """The elastic of ``operation``; None when it has none that is seen."""
+    if isinstance(operation, Tie) and operation.elastic:
+        point, away = _knot(surroundings, operation.place, operation.tolerance)
+        return Elastic(point, away, operation.tolerance, operation.colour)
+    if isinstance(operation, Braid) and operation.elastic:
+        middle = _braid_path(operation, surroundings, longest)[1]
+        axis = unit((middle[-1] - middle[-3])[None], otherwise=_DOWN)[0]
+        return Elastic(middle[-1], axis, 1.2 * operation.thickness, operation.colour)
+    return None
 
 
 def _knot(surroundings: Surroundings, place: Place, radius: float) -> tuple[Floats, Floats]:

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..params import integer, number
+from ..params import colour, integer, number, switch
 from .selection import Selection
 
 Place = tuple[float, float, float]
+
+EVERYTHING = Selection()
+EVERYWHERE = 2.0  # [m]
 
 
 def _tolerance(default: float) -> float:
@@ -67,7 +70,7 @@ Step = ToPoint | AlongPath | InDirection
 class Constrain:
     """A queue of constraints, one after the other: what all other operations are made of."""
 
-    selection: Selection = Selection()
+    selection: Selection = EVERYTHING
     steps: tuple[Step, ...] = (ToPoint(),)
 
 
@@ -75,31 +78,35 @@ class Constrain:
 class Tie:
     """Gathers hair at a place and lets it hang from there: a ponytail, a pigtail."""
 
-    selection: Selection = Selection()
+    selection: Selection = EVERYTHING
     place: Place = (0.0, 0.45, -1.15)
     tolerance: float = _tolerance(0.014)
     lift: float = number(0.02, "Lift", "m", 0.0, 0.2, "How far the tail stands off before it falls.", shown="cm")
     weight: float = _weight(1.0)
+    elastic: bool = switch(True, "Elastic", "An elastic around the knot is seen.")
+    colour: tuple[float, float, float] = colour("#33272a", "Colour", "Colour of the elastic.")
 
 
 @dataclass(frozen=True)
 class Braid:
     """Gathers hair at a place and plaits it. path: where the braid lies; empty, it hangs down from the place."""
 
-    selection: Selection = Selection()
+    selection: Selection = EVERYTHING
     place: Place = (0.0, -0.1, -1.05)
     path: tuple[Place, ...] = ()
     groups: int = integer(3, "Groups", 3, 9, "How many groups are plaited.")
     thickness: float = _thickness(0.011, "Radius of one group.")
     period: float = number(0.075, "Period", "m", 0.02, 0.3, "Length of a whole plait.", shown="mm")
     length: float = number(0.8, "Length", "", 0.1, 1.0, "What part of the longest hair is plaited; the rest is loose.")
+    elastic: bool = switch(True, "Elastic", "An elastic around the end is seen.")
+    colour: tuple[float, float, float] = colour("#33272a", "Colour", "Colour of the elastic.")
 
 
 @dataclass(frozen=True)
 class Bun:
     """Gathers hair at a place and coils it up there."""
 
-    selection: Selection = Selection()
+    selection: Selection = EVERYTHING
     place: Place = (0.0, 0.75, -1.0)
     radius: float = number(0.033, "Radius", "m", 0.005, 0.08, "Radius of the outermost coil.", shown="mm")
     thickness: float = _thickness(0.016, "Radius of the coiled lock.")
@@ -109,7 +116,7 @@ class Bun:
 class Updo:
     """Gathers hair at a place and pins it up there in loops, side by side like petals."""
 
-    selection: Selection = Selection()
+    selection: Selection = EVERYTHING
     place: Place = (0.0, 0.8, -0.8)
     loops: int = integer(5, "Loops", 1, 12, "Into how many loops the hair is divided.")
     radius: float = number(0.028, "Radius", "m", 0.008, 0.08, "Radius of a loop.", shown="mm")
@@ -126,6 +133,9 @@ class Cut:
     place: a place the plane goes through. normal: where it cuts away, in metres, of any length. selection: whose hair.
     """
 
-    selection: Selection = Selection()
+    selection: Selection = EVERYTHING
     place: Place = (0.0, -1.0, 0.0)
     normal: Place = (0.0, -1.0, 0.0)
+    reach: float = number(
+        EVERYWHERE, "Reach", "m", 0.005, EVERYWHERE, "How far from its place the blade cuts; 2 m is all hair.", log=True
+    )

@@ -30,7 +30,7 @@ def hang(surroundings: Surroundings, start: Floats, first: Floats, length: float
     down = np.array([0.0, -1.0, 0.0])
     points = [np.asarray(start, dtype=np.float64)]
     direction = np.asarray(first, dtype=np.float64)
-    for _ in range(max(int(round(length / STEP)), 1)):
+    for _ in range(max(round(length / STEP), 1)):
         direction = unit((direction + 0.25 * down)[None], otherwise=down[None])[0]
         free = off_skin(surroundings, (points[-1] + STEP * direction)[None], clearance)[0]
         direction = unit((free - points[-1])[None], otherwise=down[None])[0]

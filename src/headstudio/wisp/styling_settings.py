@@ -6,7 +6,9 @@ import math
 from dataclasses import dataclass
 
 from ..params import number
+from .accessories import Accessory
 from .operations import Cut, Operation
+from .strokes import Stroke
 
 
 def _weight(default: float, label: str, doc: str) -> float:
@@ -19,7 +21,8 @@ class StylingSettings:
     """The styling force field as a weighted sum of presets, and how hair answers to it.
 
     The field at a place is the sum of the presets there, each a vector of length 1 or less times its weight.
-    operations: hairdressing, carried out one after the other. cuts: made when all hair lies as it will.
+    strokes: drawn over it, they bend it their way. operations: hairdressing, carried out one after the other. cuts: made
+    when all hair lies as it will. accessories: put on at last.
     """
 
     bending_stiffness: float = number(
@@ -67,5 +70,10 @@ class StylingSettings:
     )
     off_face: float = _weight(0.0, "Off the face", "Weight of the push from the face to the sides.")
     inward: float = _weight(0.0, "Inward", "Weight of the pull toward the neck, which turns the tips of a bob in.")
+    stroke_reach: float = number(
+        0.06, "Stroke reach", "m", 0.01, 0.3, "How far around a drawn stroke hair still follows it.", shown="cm"
+    )
+    strokes: tuple[Stroke, ...] = ()
     operations: tuple[Operation, ...] = ()
     cuts: tuple[Cut, ...] = ()
+    accessories: tuple[Accessory, ...] = ()
