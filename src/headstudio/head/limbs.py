@@ -106,7 +106,7 @@ class _Limb:
     def __init__(self, base: BaseMesh, vertices: Floats, weights: Weights, bones: list[str]) -> None:
         belongs = _column(weights, tuple(bones), len(vertices)) > _BELONGS
         body = base.quads("body", vertices)
-        coarse, used = body.selected(belongs[body.faces].all(axis=1))
+        coarse, used = body.selected(np.all(belongs[body.faces], axis=1))
         select = sparse.csr_array((np.ones(len(used)), (np.arange(len(used)), used)), shape=(len(used), len(vertices)))
         fine, carry = catmull_clark(coarse)
         self.skin = fine.triangulated()

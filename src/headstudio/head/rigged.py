@@ -71,7 +71,7 @@ class _Glb:
         stride = view.get("byteStride", kind.itemsize * width)
         start = view.get("byteOffset", 0) + entry.get("byteOffset", 0)
         values = np.ndarray((count, width), kind, self._binary, start, (stride, kind.itemsize))
-        return values / np.iinfo(kind).max if entry.get("normalized") else values.copy()
+        return values / float(np.iinfo(str(kind)).max) if entry.get("normalized") else values.copy()
 
 
 def _body_part(glb: _Glb, name: str) -> BodyPart:

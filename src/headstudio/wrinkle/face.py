@@ -159,7 +159,7 @@ class Face:
         return motions
 
     def _faces_that_move(self) -> Ints:
-        moved = np.asarray(abs(self._fields).sum(axis=1)).reshape(-1, 3).any(axis=1)
+        moved = np.diff(self._fields.indptr).reshape(-1, 3).sum(axis=1) > 0
         moved[self._jawed] = True
         for lids in self._lids.values():
             moved[lids.vertices] = True
@@ -175,7 +175,7 @@ def _fields(head: Head) -> tuple[dict[tuple[str, str, str], int], sparse.csr_arr
     """
     share = _shares(head.skin.vertices, head.landmarks)
     columns: dict[tuple[str, str, str], int] = {}
-    blocks = []
+    blocks: list[Floats] = []
     for (side, name), muscle in place_muscles(head.landmarks).items():
         columns["muscle", side, name] = len(blocks)
         blocks.append(share[side][:, None] * muscle.field(head.skin.vertices))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -81,7 +82,7 @@ class FaceSettings:
 
     def at(self, time: float) -> FaceSettings:
         """The face at a time of its performance [s]: the sliders that it moves take its place."""
-        moved = weights_at(self.performance, time)
+        moved: Mapping[str, Any] = weights_at(self.performance, time)
         return replace(self, **moved) if moved else self
 
 

@@ -50,9 +50,9 @@ POSES: Mapping[str, HandPose] = {
         _fingers((2, 4, 2), (80, 98, 62), (84, 98, 62), (86, 94, 60)), (30, 45), spread=-0.2, touch=_OVER_MIDDLE
     ),
     "pinch": HandPose(
-        _fingers((50, 48, 30), (38, 34, 18), (30, 28, 16), (24, 24, 14)),
+        _fingers((54, 54, 34), (38, 34, 18), (30, 28, 16), (24, 24, 14)),
         (15, 30),
-        touch=Touch("index", ("tip", "tip"), 0.13),
+        touch=Touch("index", ("tip", "tip"), 0.09),
     ),
 }
 """By name; "rest" is how the hand came."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import igl
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.ndimage import median_filter
 from scipy.sparse.linalg import splu
@@ -44,6 +45,9 @@ _HIDDEN = 0.0008
 _HOLLOW = 0.8
 # Keeps pieces of the skin that touch neither bone where they are.
 _LOOSE = 1e-9
+
+
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +117,7 @@ def lower_share(part: Part, jaw_level: float) -> Floats:
     return (levels[pieces] < jaw_level).astype(np.float64)
 
 
-def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Floats, Floats]:
+def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Mask, Mask]:
     """Which vertices the skull keeps, and which the jawbone takes along: two masks, (n,) each."""
     marks, points = head.landmarks, head.skin.vertices
     seam = lip_seam(head.skin, marks)
@@ -163,7 +167,7 @@ def _hollow(head: Head, hinge: Floats, weight: Floats) -> Floats:
     return hollow
 
 
-def _spread(skin: TriangleMesh, skull: Floats, jawbone: Floats) -> Floats:
+def _spread(skin: TriangleMesh, skull: Mask, jawbone: Mask) -> Floats:
     """The harmonic function that is 0 on one set of vertices and 1 on the other, smoothed at both ends, (n,)."""
     ends = np.concatenate([skin.faces[:, [0, 1]], skin.faces[:, [1, 2]], skin.faces[:, [2, 0]]])
     lengths = np.linalg.norm(skin.vertices[ends[:, 0]] - skin.vertices[ends[:, 1]], axis=1)

@@ -61,7 +61,10 @@ class _Sphincter(NamedTuple):
     protrusion: float
 
 
-_WATERS = {
+_Entry = _Linear | _Sheet | _Sphincter
+
+
+_WATERS: dict[str, _Entry] = {
     "zygomatic major": _Linear((-1.570, -2.221, 7.820), (-3.805, 0.868, 6.600), 0.1, 4.8, 45),
     "angular depressor": _Linear((-1.570, -2.221, 8.025), (-2.559, -4.277, 5.351), 0.3, 4.5, 65),
     "frontalis inner": _Linear((-0.487, 3.639, 8.101), (-0.354, 6.247, 7.229), 0.1, 3.6, 35),
@@ -74,7 +77,7 @@ _WATERS = {
 }
 """The set of 1994 as printed."""
 
-_ADDED = {
+_ADDED: dict[str, _Entry] = {
     "frontalis": _Sheet((-1.7, 3.7, 8.0), (-1.7, 6.7, 6.9), 2.6, 1.6, 4.1),
     "orbicularis oculi": _Sphincter((-2.05, 2.0, 7.3), 2.1, 1.75, 2.2, (0.35, 1.0), 0.0),
     "orbicularis oris": _Sphincter((0.0, -2.3, 8.2), 2.6, 2.0, 2.0, (1.0, 0.35), 0.5),
@@ -144,7 +147,7 @@ class _Carried:
         return step * self._mirror[0] if axis == 0 else step
 
 
-def _placed(entry: _Linear | _Sheet | _Sphincter, carried: _Carried) -> Muscle:
+def _placed(entry: _Entry, carried: _Carried) -> Muscle:
     if isinstance(entry, _Sphincter):
         return _placed_sphincter(entry, carried)
     origin, insertion = carried.point(entry.origin), carried.point(entry.insertion)

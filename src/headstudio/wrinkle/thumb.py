@@ -9,10 +9,10 @@ from scipy.spatial.transform import Rotation
 from ..head.mesh import Floats
 
 # The root swings about this far to each side, the other two joints bend between these angles from rest [rad].
-_SWING = np.radians(55.0)
+_SWING = np.radians(60.0)
 _BEND = np.radians([-25.0, 75.0])
 # What a radian away from the angles that are preferred costs, as a part of the length of the thumb.
-_EASE = 0.04
+_EASE = 0.02
 
 
 def reach(joints: Floats, bend_axis: Floats, preferred: Floats, target: Floats) -> Floats:
