@@ -10,6 +10,7 @@ from imgui_bundle import imgui
 
 from headstudio.app.application import Application
 from headstudio.app.ui import Rect
+from headstudio.scene.animation import needs
 
 FRAME = 1 / 60
 
@@ -41,9 +42,7 @@ class Driver:
 
         def done() -> bool:
             grown, document = self.studio.grown, self.studio.document
-            return grown is not None and all(
-                getattr(grown.document, part) == getattr(document, part) for part in ("head", "scalp", "hair")
-            )
+            return grown is not None and needs(grown.document) == needs(document)
 
         self.frames(2)
         self.until(done)

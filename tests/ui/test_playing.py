@@ -46,7 +46,7 @@ def test_a_motion_moves_the_head_and_reset_brings_it_back(driver):
 def test_a_parameter_reaches_the_running_simulation(driver):
     driver.studio.set("lcp.gravity", 0.5, "Gravity")
     driver.frames(2)
-    assert driver.studio.grown.simulation.document.lcp.gravity == 0.5
+    assert driver.studio.grown.animation.simulation.document.lcp.gravity == 0.5
 
 
 def test_another_hair_is_grown_beside_the_running_window(driver):
@@ -56,7 +56,7 @@ def test_another_hair_is_grown_beside_the_running_window(driver):
     assert driver.studio.building
     assert driver.studio.stage.hair.model is shown, "the last hair stays on show"
     driver.built()
-    assert driver.studio.grown.built.hair.count == pytest.approx(500, rel=0.05)
+    assert driver.studio.grown.animation.simulation.built.hair.count == pytest.approx(500, rel=0.05)
 
 
 def test_a_build_can_be_cancelled_and_the_change_is_taken_back(driver):
@@ -104,7 +104,7 @@ def test_an_error_while_playing_pauses_and_keeps_the_picture(driver, monkeypatch
     def fail(*args):
         raise FloatingPointError("overflow")
 
-    monkeypatch.setattr(driver.studio.grown.simulation, "advance", fail)
+    monkeypatch.setattr(driver.studio.grown.animation, "advance", fail)
     driver.key(imgui.Key.space)
     driver.frames(3)
     assert not driver.studio.playback.playing

@@ -46,24 +46,24 @@ def test_ctrl_moves_the_bust(driver):
 def test_hair_is_held_apart_and_let_go(driver, tool):
     tool("Part")
     driver.click("Tools/Hold apart")
-    assert driver.studio.grown.simulation.parting is not None
+    assert driver.studio.grown.animation.simulation.parting is not None
     assert driver.studio.playback.playing
     driver.click("Tools/Let go")
-    assert driver.studio.grown.simulation.parting is None
+    assert driver.studio.grown.animation.simulation.parting is None
     driver.drag(
         on_screen(driver, driver.studio.stage.head.landmarks.crown), driver.rect("Viewport").centre, release=False
     )
-    assert driver.studio.grown.simulation.parting is not None
+    assert driver.studio.grown.animation.simulation.parting is not None
     driver.release()
     driver.frames()
-    assert driver.studio.grown.simulation.parting is None
+    assert driver.studio.grown.animation.simulation.parting is None
 
 
 def test_the_whorl_is_placed_by_a_click_as_one_change(driver, tool):
     tool("Whorl")
     driver.key(imgui.Key["_7"])
     before = driver.studio.document.scalp
-    scalp = driver.studio.grown.built.scalp
+    scalp = driver.studio.grown.animation.scalp
     wanted = np.array([[0.42, 0.3]])
     driver.click_at(on_screen(driver, scalp.points(wanted)[0]))
     driver.built()
@@ -76,7 +76,7 @@ def test_the_whorl_is_placed_by_a_click_as_one_change(driver, tool):
 def test_a_handle_of_the_scalp_is_dragged_along_the_skin(driver, tool):
     tool("Scalp")
     driver.key(imgui.Key["_1"])
-    head = driver.studio.grown.built.head
+    head = driver.studio.grown.animation.head
     x, y = on_screen(driver, head.landmarks.hairline)
     driver.drag((x, y), (x, y - 12))
     driver.built()

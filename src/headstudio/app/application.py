@@ -168,13 +168,13 @@ class Application:
         if grown is None or self.studio.stage is self._measured:
             return
         self._measured = self.studio.stage
-        simulation = grown.simulation
+        animation = grown.animation
         measures: dict[str, float] = {}
         if self._unmeasured >= MEASURE_EVERY:
             self._unmeasured = 0.0
-            measures = simulation.measure()
-        stages = simulation.timings | self.viewport.renderer.timer.stages
-        self.transport.plots.record(simulation.time, measures, stages)
+            measures = animation.measure()
+        stages = animation.timings | self.viewport.renderer.timer.stages
+        self.transport.plots.record(animation.time, measures, stages)
 
     def _record(self) -> None:
         if not self.recorder.recording or self.studio.stage is None:

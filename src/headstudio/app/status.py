@@ -14,6 +14,13 @@ NOTES = {
     "scalp": "Mapping the scalp",
     "body": "Measuring the body for contact",
     "hair": "Growing the hair",
+    "surroundings": "Measuring the space around the head",
+    "hairdo": "Styling the hair",
+    "wisps": "Spreading the wisps",
+    "flow": "Letting the hair flow",
+    "strands": "Growing the strands",
+    "collisions": "Lifting strands off the head",
+    "colour": "Colouring the hair",
 }
 
 
@@ -56,6 +63,11 @@ def progress(ui: Ui, studio: Studio, view: Rect) -> None:
 def _what_there_is(studio: Studio) -> str:
     if studio.grown is None:
         return "No hair yet"
-    built = studio.grown.built
-    hair = built.hair
-    return f"{built.head.name}     {hair.count:,} particles     {len(hair.links):,} links"
+    animation = studio.grown.animation
+    if animation.simulation is not None:
+        hair = animation.simulation.built.hair
+        return f"{animation.head.name}     {hair.count:,} particles     {len(hair.links):,} links"
+    if animation.hairdo is None:
+        return animation.head.name
+    wisps, strands = len(animation.hairdo.outlines.roots), studio.grown.document.wisp.strands
+    return f"{animation.head.name}     {strands:,} strands in {wisps:,} wisps"

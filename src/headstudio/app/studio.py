@@ -8,15 +8,13 @@ from typing import Any
 
 from ..head.head import HeadError
 from ..head.mesh import Floats
-from ..head.scalp_settings import ScalpSettings
 from ..io.film import FilmError
-from ..lcp.settings import HairSettings
 from ..params import ParameterError
 from ..render.context import RenderError
-from ..scene.builder import Builder, Built
+from ..scene.animation import Animation, needs
+from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.project import ProjectError
-from ..scene.simulation import Simulation
 from ..scene.stage import Stage
 from .builds import Builds
 from .messages import Messages
@@ -33,8 +31,7 @@ class Grown:
     """A head of hair, ready to move, and the document it was grown from."""
 
     document: Document
-    built: Built
-    simulation: Simulation
+    animation: Animation
 
 
 class Studio:
@@ -106,7 +103,7 @@ class Studio:
     @property
     def time(self) -> float:
         """Simulated time [s]."""
-        return self.grown.simulation.time if self.grown else 0.0
+        return self.grown.animation.time if self.grown else 0.0
 
     def tick(self, wall: float, fixed: float | None = None) -> None:
         """Go on by one frame that comes ``wall`` seconds after the last one.
@@ -119,7 +116,7 @@ class Studio:
         if self.grown is None:
             return
         with self.reporting() as outcome:
-            self._simulate(self.grown.simulation, self.playback.take(wall, fixed))
+            self._animate(self.grown.animation, self.playback.take(wall, fixed))
         if not outcome.good:
             self.playback.playing = False
 
@@ -131,23 +128,22 @@ class Studio:
         """Everything back to rest, at time 0; a motion starts anew."""
         self.performance = Performance(self.document.motion)
         if self.grown is not None:
-            self.grown.simulation.reset()
+            self.grown.animation.reset()
             self.stage = None
 
-    def _simulate(self, simulation: Simulation, seconds: float) -> None:
+    def _animate(self, animation: Animation, seconds: float) -> None:
         document = self.work.history.document  # the view is no matter of the simulation
         if document != self._tuned:
-            simulation.retune(document)
+            animation.retune(document)
             self._tuned, self.stage = document, None
         if seconds > 0:
-            self.performance.follow(document.motion, simulation.time)
-            simulation.advance(self.performance, seconds)
-            for note in simulation.notes:
+            self.performance.follow(document.motion, animation.time)
+            animation.advance(self.performance, seconds)
+            for note in animation.take_notes():
                 self.messages.say(f"{note[:1].upper()}{note[1:]}.", "warning")
-            simulation.notes.clear()
             self.stage = None
         if self.stage is None:
-            self.stage = simulation.stage()
+            self.stage = animation.stage()
 
     @property
     def building(self) -> bool:
@@ -200,7 +196,8 @@ class Studio:
         head = replace(document.head, source="mannequin")
         stand_in = replace(document, head=head, scalp=replace(document.scalp, curves=()))
         if _same_hair(stand_in, document):
-            stand_in = replace(document, head=head, scalp=ScalpSettings(), hair=HairSettings())
+            plain = Document()
+            stand_in = replace(plain, head=head, motion=document.motion, look=document.look, camera=document.camera)
         if _same_hair(stand_in, document):
             self._refused = document
             return
@@ -233,10 +230,9 @@ def explain(error: Exception) -> str:
 
 
 def _grow(builder: Builder, document: Document) -> Grown:
-    built = builder.build(document)
-    return Grown(document, built, Simulation(built, document))
+    return Grown(document, Animation(builder, document, document.look.strands_shown))
 
 
 def _same_hair(one: Document, other: Document) -> bool:
     """Whether the same head of hair grows from both."""
-    return (one.head, one.scalp, one.hair) == (other.head, other.scalp, other.hair)
+    return needs(one) == needs(other)

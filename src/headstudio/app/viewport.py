@@ -116,6 +116,8 @@ class Viewport:
         points: list[Floats] = [head if everything else head[stage.head.head_weight > 0.9]]
         if everything and stage.hair is not None:
             points.append(stage.frame.to_world(stage.hair.positions))
+        if everything and stage.strands is not None:
+            points.append(stage.frame.to_world(stage.strands.points.astype(np.float64)))
         camera = navigation.frame(
             self.studio.document.camera, np.concatenate(points), self.rect.width / self.rect.height
         )

@@ -6,16 +6,19 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
+
+from numpy.typing import NDArray
 
 from ..io.contact_sheet import contact_sheet
 from ..io.film import open_film
 from ..params import assign
-from ..scene.builder import Built
+from ..scene.animation import Animation
+from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.motion import head_motion
-from ..scene.simulation import Simulation
 from ..scene.stage import Stage
-from .documents import build, choose_view
+from .documents import animate, choose_view
 from .pictures import Photographer, Pixels, save_picture
 from .reporting import counting, say
 from .simulate import Run, write_report
@@ -79,24 +82,29 @@ def demo(document: Document, out: Path, quick: bool) -> None:
     scale = QUICK if quick else FULL
     document = assign(document, {"hair.particles": scale.particles})
     photographer = Photographer((scale.size, scale.size))
-    built = build(document)
-    document = framed(document, built)
+    builder = Builder()
+    document = framed(document, animate(document, builder))
     out.mkdir(parents=True, exist_ok=True)
-    at_rest = Simulation(built, document).stage()
+    at_rest = animate(document, builder).stage()
     save_picture(views(at_rest, document, photographer), out / "views.png")
     save_picture(shadows(at_rest, document, photographer), out / "shadows.png")
     for scene in SCENES:
-        run = Run(directed(scene, document), built)
+        run = Run(animate(directed(scene, document), builder))
         save_picture(film(scene, run, photographer, scale, out / scene.name), out / f"{scene.name}.png")
     say(f"the demo's pictures, films and figures are in {out.resolve()}:")
     for path in sorted(out.iterdir()):
         say(f"  {path.name}")
 
 
-def framed(document: Document, built: Built) -> Document:
+def framed(document: Document, animation: Animation) -> Document:
     """The document with a camera that has all of the head and its hair at rest in view."""
-    low, high = built.hair.rest_positions[:, 1].min(), built.hair.rest_positions[:, 1].max()
-    low, high = min(low, built.head.skin.bounds[0, 1]) - _MARGIN, max(high, built.head.skin.bounds[1, 1]) + _MARGIN
+    stage = animation.stage()
+    heights: list[NDArray[Any]] = [stage.head.skin.bounds[:, 1]]
+    if stage.hair is not None:
+        heights.append(stage.hair.positions[:, 1])
+    if stage.strands is not None:
+        heights.append(stage.strands.points[:, 1])
+    low, high = min(each.min() for each in heights) - _MARGIN, max(each.max() for each in heights) + _MARGIN
     distance = 0.5 * (high - low) / math.tan(0.5 * document.camera.field_of_view)
     return assign(document, {"camera.target_y": 0.5 * (low + high), "camera.distance": distance})
 
@@ -138,11 +146,11 @@ def film(scene: Scene, run: Run, photographer: Photographer, scale: Scale, path:
         open_film(path.with_suffix(".mp4"), FPS, photographer.size) as reel,
         counting(path.name, count) as progress,
     ):
-        for number, stage in enumerate(run.play(head_motion(run.document.motion), count, FPS)):
-            reel.add(photographer.picture(stage, run.document))
+        for number, stage in enumerate(run.play(head_motion(run.animation.document.motion), count, FPS)):
+            reel.add(photographer.picture(stage, run.animation.document))
             run.frames[-1] |= photographer.cost
             if number in chosen:
-                moments.append(photographer.still(stage, run.document, scale.still))
+                moments.append(photographer.still(stage, run.animation.document, scale.still))
                 captions.append(f"{path.name}, {(number + 1) / FPS:.2f} s")
             progress.advance(progress.task_ids[0])
     write_report(run.report(photographer.device), path.with_suffix(".json"))

@@ -10,7 +10,8 @@ from typing import Any
 
 from ..io.take_csv import read_take
 from ..params import ParameterError, assign, parse_assignments
-from ..scene.builder import Builder, Built
+from ..scene.animation import Animation
+from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
 from ..scene.project import Project, load_project, new_project
@@ -64,7 +65,7 @@ def choose_view(document: Document, view: str | None) -> Document:
     return document if view is None else replace(document, camera=seen_from(document.camera, view))
 
 
-def build(document: Document, builder: Builder | None = None) -> Built:
-    """Build ``document``, with a builder that may have some of it ready. Raises HeadError."""
+def animate(document: Document, builder: Builder | None = None) -> Animation:
+    """What ``document`` shows, by a builder that may have some of it ready. Raises HeadError, ParameterError."""
     with working("growing the hair"):
-        return (builder or Builder()).build(document)
+        return Animation(builder or Builder(), document)

@@ -14,9 +14,8 @@ from ..render.context import headless_context
 from ..render.renderer import Renderer
 from ..scene.document import Document
 from ..scene.motion import Motion
-from ..scene.simulation import Simulation
 from ..scene.stage import Stage
-from .documents import build
+from .documents import animate
 from .reporting import counting
 
 Size = tuple[int, int]
@@ -67,13 +66,13 @@ def render(document: Document, motion: Motion, seconds: float, size: Size, out: 
     """Write the document as a picture, ``seconds`` after the start of the motion. Raises what building raises."""
     check_is_picture(out)
     photographer = Photographer(size)
-    simulation = Simulation(build(document), document)
+    animation = animate(document)
     steps = round(seconds * APPROACH_RATE)
     with counting("simulating", steps) as progress:
         for _ in range(steps):
-            simulation.advance(motion, seconds / steps)
+            animation.advance(motion, seconds / steps)
             progress.advance(progress.task_ids[0])
-    save_picture(photographer.picture(simulation.stage(), document), out)
+    save_picture(photographer.picture(animation.stage(), document), out)
 
 
 def check_is_picture(path: Path) -> None:

@@ -15,13 +15,12 @@ from typing import Any
 
 from ..io.film import FILM_SUFFIXES, Film, open_film
 from ..params import ParameterError
-from ..scene.builder import Built
+from ..scene.animation import Animation
 from ..scene.document import Document
 from ..scene.files import write_atomically
 from ..scene.motion import Motion
-from ..scene.simulation import Simulation
 from ..scene.stage import Stage
-from .documents import build
+from .documents import animate
 from .pictures import Photographer, Size
 from .reporting import counting, say, warn
 from .versions import versions
@@ -49,43 +48,38 @@ class Shot:
 class Run:
     """A document in motion, frame by frame, with the figures of every frame."""
 
-    document: Document
-    built: Built
+    animation: Animation
     frames: list[Figures] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        self.simulation = Simulation(self.built, self.document)
 
     def play(self, motion: Motion, count: int, fps: float) -> Iterator[Stage]:
         """Go on by ``count`` frames of 1/fps [s]; yields each when its figures are taken. Tells what was repaired."""
         for _ in range(count):
             start = time.perf_counter()
-            self.simulation.advance(motion, 1 / fps)
+            self.animation.advance(motion, 1 / fps)
             elapsed = time.perf_counter() - start
-            for note in self.simulation.notes:
+            for note in self.animation.take_notes():
                 warn(note)
-            self.simulation.notes.clear()
             self.frames.append(self._figures(elapsed))
-            yield self.simulation.stage()
+            yield self.animation.stage()
 
     def _figures(self, elapsed: float) -> Figures:
-        measured = self.simulation.measure()
-        stages = {f"ms_{stage}": spent for stage, spent in self.simulation.timings.items()}
-        figures = {"time": self.simulation.time, **measured, **stages, "ms_simulation": 1000 * elapsed}
+        measured = self.animation.measure()
+        stages = {f"ms_{stage}": spent for stage, spent in self.animation.timings.items()}
+        figures = {"time": self.animation.time, **measured, **stages, "ms_simulation": 1000 * elapsed}
         # JSON knows no infinity: a figure that has no value (the distance of pairs, where there are none) is null.
         return {name: float(value) if math.isfinite(value) else None for name, value in figures.items()}
 
     def report(self, renderer: str | None) -> dict[str, Any]:
         """The content of the stats file, SI throughout. ``renderer``: what drew the frames, if anything did."""
-        return {
-            "versions": versions(),
-            "renderer": renderer,
-            "seed": self.document.hair.seed,
-            "particles": self.built.hair.count,
-            "links": len(self.built.hair.links),
-            "solver": self.simulation.solver_name,
-            "frames": self.frames,
-        }
+        document, simulation, hairdo = self.animation.document, self.animation.simulation, self.animation.hairdo
+        hair: dict[str, Any] = {}
+        if simulation is not None:
+            model = simulation.built.hair
+            hair = {"particles": model.count, "links": len(model.links), "solver": simulation.solver_name}
+        elif hairdo is not None:
+            hair = {"strands": hairdo.strands.count, "wisps": len(hairdo.outlines.roots)}
+        seed = document.hair.seed if simulation else document.wisp.seed
+        return {"versions": versions(), "renderer": renderer, "seed": seed, **hair, "frames": self.frames}
 
 
 def simulate(document: Document, motion: Motion, shot: Shot) -> None:
@@ -95,7 +89,7 @@ def simulate(document: Document, motion: Motion, shot: Shot) -> None:
     if shot.stats is not None:
         check_can_be_written(shot.stats)
     photographer = Photographer(shot.size) if shot.film else None
-    run = Run(document, build(document))
+    run = Run(animate(document))
     with ExitStack() as stack:
         film: Film | None = stack.enter_context(open_film(shot.film, shot.fps, shot.size)) if shot.film else None
         progress = stack.enter_context(counting("simulating", shot.frames))
@@ -137,12 +131,17 @@ def summary(run: Run, shot: Shot) -> list[str]:
     """What happened, in lines for a person."""
     simulated = run.frames[-1]["time"] or 0.0
     cost = sum(frame["ms_simulation"] or 0.0 for frame in run.frames) / 1000
-    lines = [
-        f"{run.built.hair.count} particles, {len(run.built.hair.links)} links, "
-        f"{len(run.frames)} frames, {simulated:.2f} s in {cost:.2f} s ({simulated / cost:.2f} times real time)",
-        f"largest reach {_largest(run, 'reach_max'):.3f}, largest rms stretch {100 * _largest(run, 'stretch_rms'):.2f} %, "
-        f"deepest penetration {1000 * _largest(run, 'penetration_max'):.1f} mm",
-    ]
+    frames = f"{len(run.frames)} frames, {simulated:.2f} s in {cost:.2f} s ({simulated / cost:.2f} times real time)"
+    if run.animation.simulation is not None:
+        hair = run.animation.simulation.built.hair
+        lines = [
+            f"{hair.count} particles, {len(hair.links)} links, {frames}",
+            f"largest reach {_largest(run, 'reach_max'):.3f}, "
+            f"largest rms stretch {100 * _largest(run, 'stretch_rms'):.2f} %, "
+            f"deepest penetration {1000 * _largest(run, 'penetration_max'):.1f} mm",
+        ]
+    else:
+        lines = [frames]
     if shot.film is not None:
         lines.append(f"film: {shot.film}")
     if shot.stats is not None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..params import choice, colour, integer, number, switch, text
 
 MOTIONS = ("rest", "shake", "nod", "turn", "tilt", "split", "wind")
+HAIR_AS = ("particles", "strands")
 STRAND_MODELS = ("fibre", "kajiya-kay")
 
 
@@ -93,6 +94,12 @@ class Look:
         live=True,
     )
     gloss: float = number(40.0, "Gloss", "", 2.0, 200.0, "Exponent of the highlight of hair.", log=True, live=True)
+    hair_as: str = choice(
+        "particles",
+        "Hair as",
+        HAIR_AS,
+        "What hair is made of: loose particles that can be shaken, or the strands of a hairstyle made of wisps.",
+    )
     strand_model: str = choice(
         "fibre", "Strand shading", STRAND_MODELS, "Marschner's lobes of a hair fibre, or Kajiya and Kay's.", live=True
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -75,21 +75,18 @@ def style_hair(
     count = wisp.strands if strands is None else min(strands, wisp.strands)
     roots, owner = scatter_strands(regions, count, wisp.seed)
     masters = Masters(controls, details.per_segment, outlines.radii.astype(np.float32), lengths / outlines.segment)
-    points = _grow(masters, roots, owner, wisp)
-
-    announce("collisions")
-    surroundings.keep_outside(points.reshape(-1, 3), _CLEARANCE)
+    points = _grow(masters, roots, owner, wisp, surroundings)
 
     announce("colour")
     colours = strand_colours(colour, owner, regions.count, wisp.points)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
     radius = np.broadcast_to(shaft, points.shape[:2])
     made = Strands.of_equal_count(points, radius, colours, owner.astype(np.int32))
-    return Hairdo(made, outlines, controls, report)
+    return Hairdo(replace(made, stands_for=wisp.strands / count), outlines, controls, report)
 
 
-def _grow(masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings) -> Singles:
-    """Points of all member strands [m], (S, points, 3): every block on whichever processor is free."""
+def _grow(masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings, surroundings: Surroundings) -> Singles:
+    """Points of all member strands outside the head [m], (S, points, 3): each block on whichever processor is free."""
     distribution = LengthDistribution.of(wisp)
     lengths = distribution.sample(np.random.default_rng([wisp.seed, 4]).random(len(owner)))
     cuts = Cuts.of(masters, wisp.points)
@@ -101,7 +98,8 @@ def _grow(masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings) -> S
         first = (roots[here] - masters.controls[own, 0]).T.astype(np.float32)
         even = _even_numbers([wisp.seed, 5, block], len(own))
         offsets = displacements(masters.radii[own].T, first, wisp.fuzziness, even)
-        points[here] = member_points(masters, cuts, own, offsets, lengths[here])
+        grown = member_points(masters, cuts, own, offsets, lengths[here])
+        points[here] = surroundings.keep_outside(grown.reshape(-1, 3), _CLEARANCE).reshape(grown.shape)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(grow, range(-(-len(owner) // _BLOCK))))

@@ -17,7 +17,8 @@ class Strands:
     points: of all strands, one strand after the other [m], (p, 3). first: where each strand starts in ``points``, and at
     the end p, (n + 1,); a strand has two points or more. radius: half the thickness of the shaft at every point [m],
     (p,). colour: what colour the hair looks in even light, linear RGB, at every point, (p, 3). wisp: which wisp a strand
-    belongs to, (n,), -1 for none. None: not known, whoever draws decides.
+    belongs to, (n,), -1 for none. None: not known, whoever draws decides. stands_for: how many strands of the whole
+    hairstyle each of these stands for, when they are a sample of it.
     """
 
     points: Singles
@@ -25,6 +26,7 @@ class Strands:
     radius: Singles | None = None
     colour: Singles | None = None
     wisp: NDArray[np.int32] | None = None
+    stands_for: float = 1.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", np.ascontiguousarray(self.points, dtype=np.float32))

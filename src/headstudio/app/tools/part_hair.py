@@ -5,6 +5,7 @@ from __future__ import annotations
 from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
+from ...scene.simulation import Simulation
 from ..ui import Ui
 from .tool import Pointer, Tool
 
@@ -18,15 +19,15 @@ class PartHair(Tool):
 
     def press(self, pointer: Pointer) -> bool:
         """Take the hair apart."""
-        if pointer.hit is None or self.studio.grown is None:
+        if pointer.hit is None or self._simulation is None:
             return False
         self._hold()
         return True
 
     def release(self) -> None:
         """Let go."""
-        if self.studio.grown is not None:
-            self.studio.grown.simulation.release()
+        if self._simulation is not None:
+            self._simulation.release()
 
     def options(self, ui: Ui) -> None:
         """Hold without keeping the button down."""
@@ -37,6 +38,11 @@ class PartHair(Tool):
             self.release()
 
     def _hold(self) -> None:
-        if self.studio.grown is not None:
-            self.studio.grown.simulation.hold_apart()
+        if self._simulation is not None:
+            self._simulation.hold_apart()
             self.studio.playback.playing = True
+
+    @property
+    def _simulation(self) -> Simulation | None:
+        """The particles; None while there are none to hold."""
+        return self.studio.grown.animation.simulation if self.studio.grown else None

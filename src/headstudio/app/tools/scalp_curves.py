@@ -93,7 +93,7 @@ class ShapeScalp(Tool):
         if self.studio.grown is None:
             return None
         chosen = self.studio.document.scalp.curves
-        return chosen or self._defaults(self.studio.grown.built.head)
+        return chosen or self._defaults(self.studio.grown.animation.head)
 
     def _defaults(self, head: Head) -> Curves:
         """The curves placed from landmarks, found once for each head."""

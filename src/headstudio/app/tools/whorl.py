@@ -47,7 +47,7 @@ class PlaceWhorl(Tool):
             return
         settings = self.studio.document.scalp
         uv = np.array([[settings.whorl_u, settings.whorl_v]])
-        (point,) = canvas.view.project(canvas.frame.to_world(grown.built.scalp.points(uv)))
+        (point,) = canvas.view.project(canvas.frame.to_world(grown.animation.scalp.points(uv)))
         if not np.isfinite(point).all():
             return
         centre = (canvas.x + point[0], canvas.y + point[1])
@@ -60,7 +60,7 @@ class PlaceWhorl(Tool):
         """(u, v) of the scalp under the mouse, (2,); None beside it."""
         if pointer.hit is None or self.studio.grown is None:
             return None
-        scalp = self.studio.grown.built.scalp
+        scalp = self.studio.grown.animation.scalp
         point = pointer.hit.point[None]
         uv = scalp.locate(point)
         return uv[0] if np.linalg.norm(scalp.points(uv) - point) < ON_SCALP else None

@@ -1,0 +1,90 @@
+"""One head with everything that is on it, over time: loose particles that swing, or strands that keep their style."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from ..head.frame import HeadFrame
+from .builder import Builder
+from .document import Document
+from .measures import head_figures
+from .motion import Motion
+from .simulation import Simulation
+from .stage import Stage
+
+
+class Animation:
+    """What a document shows, from rest on.
+
+    document: as it is shown now. head, scalp: what everything sits on. simulation: the particles in motion, or None.
+    hairdo: the strands in their style, or None.
+    """
+
+    def __init__(self, builder: Builder, document: Document, strands: int | None = None) -> None:
+        """Build what the document asks for; ``strands``: of a hairstyle at most so many. Raises HeadError, ParameterError."""
+        self.document = document
+        self.head = builder.head(document.head)
+        self.scalp = builder.scalp(document)
+        as_strands = document.look.hair_as == "strands"
+        self.simulation = None if as_strands else Simulation(builder.build(document), document)
+        self.hairdo = builder.hairdo(document, strands) if as_strands else None
+        self._time = 0.0
+        self._frame = HeadFrame()
+
+    @property
+    def time(self) -> float:
+        """How long it has been going on [s]."""
+        return self.simulation.time if self.simulation else self._time
+
+    @property
+    def timings(self) -> dict[str, float]:
+        """Milliseconds that each stage of the last advance() took."""
+        return self.simulation.timings if self.simulation else {}
+
+    def advance(self, motion: Motion, seconds: float) -> None:
+        """Let ``seconds`` pass while the head moves by ``motion``."""
+        if self.simulation is not None:
+            self.simulation.advance(motion, seconds)
+        else:
+            self._time += seconds
+            self._frame = motion(self._time)
+
+    def reset(self) -> None:
+        """Back to rest, at time 0."""
+        self._time, self._frame = 0.0, HeadFrame()
+        if self.simulation is not None:
+            self.simulation.reset()
+
+    def retune(self, document: Document) -> None:
+        """Take over the parameters that need no other build."""
+        self.document = document
+        if self.simulation is not None:
+            self.simulation.retune(document)
+
+    def take_notes(self) -> list[str]:
+        """What the user should be told since the last time, in lines."""
+        if self.simulation is None:
+            return []
+        notes, self.simulation.notes[:] = list(self.simulation.notes), []
+        return notes
+
+    def measure(self) -> dict[str, float]:
+        """The figures of the present state."""
+        return self.simulation.measure() if self.simulation else head_figures(self._frame)
+
+    def stage(self) -> Stage:
+        """What there is to see now."""
+        if self.simulation is not None:
+            return self.simulation.stage()
+        return replace(Stage(self.head, self._frame), strands=self.hairdo.strands if self.hairdo else None)
+
+
+def needs(document: Document) -> tuple[Any, ...]:
+    """All that a build depends on: documents with the same needs are shown by the same Animation."""
+    look = document.look
+    if look.hair_as == "strands":
+        hair: tuple[Any, ...] = (document.wisp, document.colour, document.styling, look.strands_shown)
+    else:
+        hair = (document.hair,)
+    return (document.head, document.scalp, look.hair_as, *hair)
