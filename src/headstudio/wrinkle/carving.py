@@ -54,19 +54,6 @@ class CarvedField:
     unit: float
 
 
-@dataclass(frozen=True, eq=False)
-class InitialState:
-    """What is there before carving starts: the part that a neighbour has carved already (section 2.6.4).
-
-    height: (size, size) [m]. kept: where it must stay as it is, (size, size). onward: the segments with which furrows
-    of the neighbour cross the border, one each; they grow on from there.
-    """
-
-    height: NDArray[np.float32]
-    kept: Flags
-    onward: Segments
-
-
 def carve(
     field: DirectionField,
     laws: FurrowLaws,
@@ -75,17 +62,18 @@ def carve(
     depth: float,
     roundness: float = 0.0,
     seed: int | np.random.SeedSequence,
-    initial: InitialState | None = None,
+    onward: Segments | None = None,
     batch: int | None = None,
 ) -> CarvedField:
     """Cover a mapped mesh with furrows along a field.
 
     laws: see ``LAWS``. unit: of their lengths [texels]. depth: of a furrow whose intensity I is 0 [m].
     roundness: 0 leaves the skin between grooves flat, above that it is raised like a cushion (see ``Images.draw``).
-    seed: the same gives the same furrows. initial: see InitialState. batch: how many starting points are tried at once, which changes
-    nothing but the time; left out, as many as is quick.
+    seed: the same gives the same furrows. onward: segments with which furrows of a neighbouring body part cross the
+    border, one each; they grow on from there before others start. batch: how many starting points are tried at once,
+    which changes nothing but the time; left out, as many as is quick.
     """
-    carver = _Carver(field, laws, unit, depth, roundness, np.random.default_rng(seed), initial)
+    carver = _Carver(field, laws, unit, depth, roundness, np.random.default_rng(seed), onward)
     carver.fill(batch)
     return CarvedField(
         texels=field.texels,
@@ -108,38 +96,36 @@ class _Carver:
         depth: float,
         roundness: float,
         rng: np.random.Generator,
-        initial: InitialState | None,
+        onward: Segments | None,
     ) -> None:
         self.laws, self.unit, self.depth, self.roundness, self.rng = laws, unit, depth, roundness, rng
         self.growth = Growth(field, laws, unit, rng)
         self.texels = texels = field.texels
-        shape = (texels.size, texels.size)
         self.images = Images(
-            height=initial.height.astype(np.float32) if initial else np.zeros(shape, dtype=np.float32),
+            height=np.zeros((texels.size, texels.size), dtype=np.float32),
             occupied=~texels.mapped,
-            open=~initial.kept if initial else np.ones(shape, dtype=bool),
             period=texels.period,
         )
         # The largest lengths the laws give anywhere in the field.
         largest = laws.at(np.linspace(0.0, field.strongest, 65))
         longest = unit * largest.length.max()
-        if initial:
-            longest = max(longest, np.hypot(*initial.onward.steps.T).max(initial=0.0))
+        if onward:
+            longest = max(longest, np.hypot(*onward.steps.T).max())
         distance = max(longest, 0.5 * (longest + unit * largest.spacing.max()))
         # What is carved, and what grows together just now.
         self.older = SegmentGrid(texels.size, texels.period, distance)
         self.growing = SegmentGrid(texels.size, texels.period, distance)
         self.furrows = 0
         self.carved: list[Segments] = []
-        if initial and len(initial.onward):
-            self._grow_onward(initial.onward)
+        if onward:
+            self._grow_onward(onward)
 
     def fill(self, batch: int | None) -> None:
         """Start furrows from every texel that is free when its turn comes."""
         texels = self.rng.permutation(np.flatnonzero(self.texels.mapped))
         luck = self.rng.integers(RANDOM_NUMBERS, size=len(texels))
-        corner = np.stack([texels % self.texels.size, texels // self.texels.size], axis=1)
-        points = corner + self.rng.random((len(texels), 2))
+        centres = self.texels.centres(texels)
+        points = centres + self.rng.uniform(-0.5, 0.5, (len(texels), 2))
         occupied = self.images.occupied.ravel()
         width, done = batch or _FIRST_BATCH, 0
         while done < len(texels):
@@ -150,7 +136,7 @@ class _Carver:
             if len(free):
                 tips = Tips.of_starts(points[free], np.arange(len(free)), luck[free])
                 grown, limits = self._grow_among_older(tips, len(free))
-                grows, losses = self._settle(grown, limits, corner[free] + 0.5)
+                grows, losses = self._settle(grown, limits, centres[free])
                 occupied[texels[free[grows]]] = True
             if not batch and losses < _LOSSES[0]:
                 width = 2 * width
@@ -209,7 +195,8 @@ class _Carver:
         self.carved.append(kept)
         law = self.laws.at(kept.magnitudes)
         widths, spacings = self.unit * law.width, self.unit * law.spacing
-        self.images.draw(kept, widths, self.depth * law.depth, spacings, self.roundness)
+        steps = kept.reach[:, None] * kept.steps
+        self.images.draw(kept.starts, steps, widths, self.depth * law.depth, spacings, self.roundness)
         return grows, 1 - len(kept) / max(len(grown), 1)
 
     def _encounters(self, grown: Segments, starts: Floats) -> Encounters:
@@ -241,12 +228,12 @@ class _Carver:
 
 def _sides(segments: Segments | Tips) -> Ints:
     """Number of the side of its furrow to which each segment or tip belongs, (k,)."""
-    return 2 * segments.furrows + segments.sides
+    return np.asarray(2 * segments.furrows + segments.sides)
 
 
 def _ended_at(grown: Segments, met: Meetings) -> Floats:
     """The places where furrows end that meet others: just before they do, so that they never cross."""
-    return grown.order[met.arriving] + np.maximum(met.parts - TOUCH, 0.0)
+    return np.asarray(grown.order[met.arriving] + np.maximum(met.parts - TOUCH, 0.0))
 
 
 def _by_furrow(pieces: list[Segments]) -> Segments:

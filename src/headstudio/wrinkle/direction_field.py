@@ -69,6 +69,12 @@ class DirectionField:
         return vector / np.where(length == 0, 1.0, length)[:, None], np.minimum(length, 1.0), triangle
 
     @property
+    def directions(self) -> Floats:
+        """Unit directions at the vertices, (n, 2); u where the field vanishes."""
+        length = np.linalg.norm(self.vectors, axis=1, keepdims=True)
+        return np.where(length == 0, [1.0, 0.0], self.vectors / np.where(length == 0, 1.0, length))
+
+    @property
     def strongest(self) -> float:
         """The largest magnitude at any vertex, at most 1."""
         return float(min(np.hypot(self.vectors[:, 0], self.vectors[:, 1]).max(initial=0.0), 1.0))

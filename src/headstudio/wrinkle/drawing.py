@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats, Ints
-from .segments import Segments
 from .texels import Flags
 
 # A groove narrower than this [texels] is drawn as wide as this and less deep, of the same volume, so that thin furrows
@@ -25,13 +24,13 @@ _AT_ONCE = 1 << 16
 
 
 class _Boxes(NamedTuple):
-    """Boxes of b x b texels around segments, k of them.
+    """Boxes of b x b texels around grooves, k of them.
 
-    segments: which ones, (k,). texels: numbers of the texels, (k, b, b). squared: of their distance to the segment
+    grooves: which ones, (k,). texels: numbers of the texels, (k, b, b). squared: of their distance to the groove
     [texels], infinite outside the image, (k, b, b).
     """
 
-    segments: Ints
+    grooves: Ints
     texels: Ints
     squared: Floats
 
@@ -40,50 +39,50 @@ class _Boxes(NamedTuple):
 class Images:
     """What carving draws on, square images of one size.
 
-    height: of the skin over its surface, negative [m]. occupied: where no furrow may start. open: where the height may
-    change. period: see TexelMap.
+    height: of the skin over its surface, negative [m]. occupied: where no furrow may start. period: see TexelMap.
     """
 
     height: NDArray[np.float32]
     occupied: Flags
-    open: Flags
     period: int
 
-    def draw(self, segments: Segments, widths: Floats, depths: Floats, spacings: Floats, roundness: float) -> None:
-        """Carve the grooves and record the strips they occupy.
+    def draw(
+        self, starts: Floats, steps: Floats, widths: Floats, depths: Floats, spacings: Floats, roundness: float
+    ) -> None:
+        """Carve straight grooves and record the strips they occupy.
 
-        widths: W_h, of the grooves [texels]. depths: of their middle [m]. spacings: W_o, of the strips [texels]. All
-        (k,). roundness: the part of the depth that falls over the whole strip and not within the groove, 0 to 1.
+        starts, steps: of the grooves [texels], (k, 2); a step of no length makes a dimple. widths: W_h, of the grooves
+        [texels]. depths: of their middle [m]. spacings: W_o, of the strips [texels]. All (k,). roundness: the part of the
+        depth that falls over the whole strip and not within the groove, 0 to 1.
         """
         drawn_widths = np.maximum(widths, _NARROWEST)
         shoulders = np.maximum(drawn_widths, spacings)
         sharp = (1 - roundness) * depths * widths / drawn_widths
         soft = roundness * depths
-        height, occupied, is_open = self.height.ravel(), self.occupied.ravel(), self.open.ravel()
-        for box in self._boxes(segments, 0.5 * shoulders):
-            strip = 0.25 * spacings[box.segments] ** 2
+        height, occupied = self.height.ravel(), self.occupied.ravel()
+        for box in self._boxes(starts, steps, 0.5 * shoulders):
+            strip = 0.25 * spacings[box.grooves] ** 2
             occupied[box.texels[box.squared <= strip[:, None, None]]] = True
-            segment, row, column = np.nonzero(box.squared < 0.25 * shoulders[box.segments, None, None] ** 2)
-            squared, texels = box.squared[segment, row, column], box.texels[segment, row, column]
-            segment = box.segments[segment]
-            depth = sharp[segment] * _valley(squared, drawn_widths[segment])
-            depth += soft[segment] * _valley(squared, shoulders[segment])
-            np.minimum.at(height, texels, (-depth * is_open[texels]).astype(np.float32))
+            groove, row, column = np.nonzero(box.squared < 0.25 * shoulders[box.grooves, None, None] ** 2)
+            squared, texels = box.squared[groove, row, column], box.texels[groove, row, column]
+            groove = box.grooves[groove]
+            depth = sharp[groove] * _valley(squared, drawn_widths[groove])
+            depth += soft[groove] * _valley(squared, shoulders[groove])
+            np.minimum.at(height, texels, -depth.astype(np.float32))
 
-    def _boxes(self, segments: Segments, radii: Floats) -> Iterator[_Boxes]:
-        """The texels within ``radii`` [texels], (k,), of each segment, in portions of boxes of the same size."""
-        carved = segments.reach[:, None] * segments.steps
-        sides = np.ceil(np.abs(carved).max(axis=1, initial=0.0) + 2 * radii).astype(np.int64) + 1
+    def _boxes(self, starts: Floats, steps: Floats, radii: Floats) -> Iterator[_Boxes]:
+        """The texels within ``radii`` [texels], (k,), of each groove, in portions of boxes of the same size."""
+        sides = np.ceil(np.abs(steps).max(axis=1, initial=0.0) + 2 * radii).astype(np.int64) + 1
         for side in np.unique(sides):
             same = np.flatnonzero(sides == side)
             for portion in np.array_split(same, -(-len(same) * side**2 // _AT_ONCE)):
-                yield self._box(portion, segments.starts[portion], carved[portion], int(side))
+                yield self._box(portion, starts[portion], steps[portion], int(side))
 
-    def _box(self, numbers: Ints, starts: Floats, carved: Floats, side: int) -> _Boxes:
+    def _box(self, numbers: Ints, starts: Floats, steps: Floats, side: int) -> _Boxes:
         size = len(self.height)
-        length = np.hypot(carved[:, 0], carved[:, 1])
-        along = carved / np.where(length == 0, 1.0, length)[:, None]
-        corner = np.rint(starts + 0.5 * (carved - side)).astype(np.int64)
+        length = np.hypot(steps[:, 0], steps[:, 1])
+        along = steps / np.where(length == 0, 1.0, length)[:, None]
+        corner = np.rint(starts + 0.5 * (steps - side)).astype(np.int64)
         place = corner[:, :, None] + np.arange(side)
         offset = place + 0.5 - starts[:, :, None]
         x, y = place[:, 0], place[:, 1]

@@ -6,7 +6,7 @@ Image coordinates are (x, y) in texels, x along u and y along v; texel (row, col
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -41,6 +41,10 @@ class TexelMap:
         """After how many texels x comes round again; 0 when it does not."""
         return self.size if self.map.wrapped else 0
 
+    def without(self, closed: Flags) -> TexelMap:
+        """The same with some texels, (size, size), taken as lying off the mesh."""
+        return replace(self, triangle=np.where(closed, -1, self.triangle))
+
     @cached_property
     def mapped(self) -> Flags:
         """Which texels lie on the mesh, (size, size)."""
@@ -74,11 +78,14 @@ class TexelMap:
         """Values given at the vertices, (n,), interpolated at every texel; 0 off the mesh. Shape (size, size)."""
         image = np.zeros(self.size * self.size)
         texels = np.flatnonzero(self.mapped)
-        points = np.stack([texels % self.size + 0.5, texels // self.size + 0.5], axis=1)
         triangles = self.triangle.ravel()[texels]
         corners = values[self.map.mesh.faces[triangles]]
-        image[texels] = np.einsum("ij,ij->i", self.weights(triangles, points), corners)
+        image[texels] = np.einsum("ij,ij->i", self.weights(triangles, self.centres(texels)), corners)
         return image.reshape(self.size, self.size)
+
+    def centres(self, texels: Ints) -> Floats:
+        """Centres of texels [texels], (k, 2), given by number, (k,): row after row."""
+        return np.stack([texels % self.size + 0.5, texels // self.size + 0.5], axis=1)
 
 
 def texel_map(texture_map: TextureMap, size: int) -> TexelMap:
@@ -91,7 +98,7 @@ def texel_map(texture_map: TextureMap, size: int) -> TexelMap:
     first = np.ceil(corners[..., 1].min(axis=1) - 0.5).astype(np.int64).clip(0, size)
     last = np.floor(corners[..., 1].max(axis=1) - 0.5).astype(np.int64).clip(-1, size - 1)
     faces, rows = expand(first, np.maximum(last - first + 1, 0))
-    left, right = _row_spans(corners[faces], rows + 0.5)
+    left, right = _row_spans(corners[faces], np.asarray(rows + 0.5))
     begin = np.ceil(left - 0.5).astype(np.int64)
     spans, columns = expand(begin, np.maximum(np.floor(right - 0.5).astype(np.int64) - begin + 1, 0))
     if texture_map.wrapped:

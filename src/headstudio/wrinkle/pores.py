@@ -1,0 +1,69 @@
+"""Pores: dimples that keep a distance from one another. Not in the thesis."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ..head.mesh import Floats, Ints
+from .drawing import Images
+from .texels import Flags, TexelMap
+
+# Of the largest pores: how far their centres are apart, in diameters.
+_SPACING = 2.6
+# Candidates for every place that there is: enough to leave no hole.
+_CANDIDATES = 4
+# Where pores are fewer they are smaller, too: the smallest are this part of the largest.
+_SMALLEST = 0.45
+
+
+def dimples(
+    texels: TexelMap, density: Floats, *, diameter: float, depth: float, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """Heights of pores over the skin, never positive [m], (size, size).
+
+    density: at every vertex, 0 none to 1 as close as pores stand on a nose, (n,). diameter, depth: of the largest [m].
+    """
+    height = np.zeros((texels.size, texels.size), dtype=np.float32)
+    share = texels.spread(density.clip(0, 1)).ravel()
+    spacing = _SPACING * diameter / texels.metres
+    mapped = np.flatnonzero(texels.mapped)
+    count = int(_CANDIDATES * share.sum() / spacing**2)
+    if count == 0:
+        return height
+    drawn = np.searchsorted(np.cumsum(share[mapped]), rng.random(count) * share.sum(), side="right")
+    chosen = mapped[drawn.clip(max=len(mapped) - 1)]
+    points = texels.centres(chosen) + rng.uniform(-0.5, 0.5, (count, 2))
+    free = _keep_apart(points, spacing / np.sqrt(share[chosen]).clip(0.3, 1), texels)
+    points, local = points[free], share[chosen][free]
+    size = _SMALLEST + (1 - _SMALLEST) * local * rng.uniform(0.5, 1.0, len(local))
+    images = Images(height, np.zeros(height.shape, dtype=bool), texels.period)
+    widths = size * diameter / texels.metres
+    images.draw(points, np.zeros_like(points), widths, size * depth, widths, 0.0)
+    return height
+
+
+def _keep_apart(points: Floats, spacings: Floats, texels: TexelMap) -> Flags:
+    """Which points stay, (k,), when each takes its place in turn unless one that did is too near.
+
+    As with furrows, repeating the rule from "all stay" settles the first point at once, then the second, and so on.
+    """
+    box = None
+    if texels.period:
+        # No distance around the image in y: a box so high that its ends are far apart.
+        points = np.stack([points[:, 0] % texels.period, points[:, 1] + texels.size], axis=1)
+        box = [texels.period, 4 * texels.size]
+    pairs: Ints = cKDTree(points, boxsize=box).query_pairs(spacings.max(), output_type="ndarray")
+    offsets = np.abs(points[pairs[:, 0]] - points[pairs[:, 1]])
+    if texels.period:
+        offsets[:, 0] = np.minimum(offsets[:, 0], texels.period - offsets[:, 0])
+    near = np.hypot(offsets[:, 0], offsets[:, 1]) < spacings[pairs].max(axis=1)
+    earlier, later = pairs[near].min(axis=1), pairs[near].max(axis=1)
+    stays = np.ones(len(points), dtype=bool)
+    while True:
+        settled = np.ones(len(points), dtype=bool)
+        settled[later[stays[earlier]]] = False
+        if np.array_equal(settled, stays):
+            return stays
+        stays = settled
