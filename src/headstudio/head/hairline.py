@@ -35,7 +35,7 @@ def default_curves(head: Head) -> tuple[Floats, ...]:
     over and behind the ears, and the back curve along the nape, so that the square's corners are the four tips. Raises
     HeadError when the landmarks do not lie as on a head.
     """
-    around = _Surroundings.of(head)
+    around = AroundHead.of(head)
     marks = head.landmarks
     left_front, left_side = _half(around, marks.hairline, marks.nape, 1)
     right_front, right_side = _half(around, marks.hairline, marks.nape, -1)
@@ -45,7 +45,7 @@ def default_curves(head: Head) -> tuple[Floats, ...]:
 
 
 @dataclass(frozen=True)
-class _Surroundings:
+class AroundHead:
     """The head as seen from a cylinder around it: its axis through ``middle``, its ``radius``, all in metres.
 
     unit: height from tragus to crown.
@@ -57,7 +57,8 @@ class _Surroundings:
     unit: float
 
     @classmethod
-    def of(cls, head: Head) -> _Surroundings:
+    def of(cls, head: Head) -> AroundHead:
+        """The surroundings of ``head``. Raises HeadError when its landmarks do not lie as on a head."""
         marks = head.landmarks
         middle = (marks.left_tragus + marks.right_tragus) / 2
         unit = float(marks.crown[1] - middle[1])
@@ -98,7 +99,7 @@ class _Surroundings:
         return outward, self.middle + self.radius * outward + up[..., None] * [0.0, 1.0, 0.0]
 
 
-def _half(around: _Surroundings, hairline: Floats, nape: Floats, side: int) -> tuple[Floats, Floats]:
+def _half(around: AroundHead, hairline: Floats, nape: Floats, side: int) -> tuple[Floats, Floats]:
     """One half of the hairline: forehead and temple from the middle outward, and from the sideburn's tip to the nape."""
     rise, fall = hairline[1] - around.middle[1], nape[1] - around.middle[1]
     top, back = around.ear(side)

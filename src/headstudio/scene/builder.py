@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
+from ..head.facial_hair import REGIONS
 from ..head.head import Head
 from ..head.load import load_head
 from ..head.scalp import Scalp, grow_scalp
+from ..head.scalp_settings import ScalpSettings
 from ..lcp.body import Body
 from ..lcp.grow import grow_hair
 from ..lcp.model import HairModel
+from ..wisp.facial_hair import FacialPatch, facial_patches
 from ..wisp.hairdo import Hairdo, style_hair
+from ..wisp.joining import join_strands
 from ..wisp.surroundings import Surroundings
 from .document import Document
 from .settings import HeadSettings
@@ -69,13 +74,36 @@ class Builder:
         return self._part("surroundings", head, lambda: Surroundings.around(head))
 
     def hairdo(self, document: Document, strands: int | None = None) -> Hairdo:
-        """The hairstyle of ``document``, made on demand; ``strands``: only the first so many of its strands.
+        """The hairstyle of ``document``, made on demand; its strands are those of head and face. ``strands``: only the first
+        so many of the head's, and as large a part of the face's.
 
         Raises HeadError, and ParameterError for curves that cannot be used.
         """
         scalp, surroundings = self.scalp(document), self.surroundings(document)
         wanted = (scalp, surroundings, document.wisp, document.colour, document.styling, strands)
-        return self._part("hairdo", wanted, lambda: style_hair(*wanted, announce=self._announce))
+        hairdo = self._part("hairdo", wanted, lambda: style_hair(*wanted, announce=self._announce))
+        faces = [
+            self._facial_hair(document, patch, hairdo.strands.stands_for) for patch in facial_patches(document.beard)
+        ]
+        if not faces:
+            return hairdo
+        joined = self._part("hair", (hairdo, *faces), lambda: join_strands([h.strands for h in (hairdo, *faces)]))
+        return replace(hairdo, strands=joined)
+
+    def _facial_hair(self, document: Document, patch: FacialPatch, stands_for: float) -> Hairdo:
+        skin, surroundings = self._facial_skin(document, patch.region), self.surroundings(document)
+        strands = math.ceil(patch.wisp.strands / stands_for)
+        wanted = (skin, surroundings, patch.wisp, document.colour, patch.styling, strands)
+        return self._part(patch.region, wanted, lambda: style_hair(*wanted))
+
+    def _facial_skin(self, document: Document, region: str) -> Scalp:
+        """The skin that a beard or a moustache grows on. Its hair leans away from the middle of the lips."""
+        head = self.head(document.head)
+
+        def grow() -> Scalp:
+            return grow_scalp(head, ScalpSettings(curves=REGIONS[region](head), whorl_u=0.5, whorl_v=1.0))
+
+        return self._part(f"{region} skin", head, grow)
 
     def _part(self, kind: str, wanted: Any, make: Callable[[], PartT]) -> PartT:
         if kind not in self._made or self._made[kind][0] != wanted:

@@ -19,7 +19,7 @@ from ..head.scalp_settings import GrayImage
 from .parting import Parting
 
 _LARGEST_TILE = 0.004  # edge [m]
-_LLOYD_STEPS = 6
+_LLOYD_STEPS = 4
 # Additive recurrence of Roberts (2018): its points fill a cube evenly, however many of them one takes.
 _PLASTIC = 1.2207440846057596
 _STRIDE = np.array([1 / _PLASTIC, 1 / _PLASTIC**2, 1 / _PLASTIC**3])

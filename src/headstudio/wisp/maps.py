@@ -99,7 +99,7 @@ def _bob(u: Floats, v: Floats) -> Floats:
 
 def _short_back_and_sides(u: Floats, v: Floats) -> Floats:
     top = _top(u, v, 0.42, 0.48, 0.22)
-    return 0.06 + 0.1 * (1 - _ramp(np.maximum(_aside(u), v), 0.5, 0.95)) + 0.6 * top
+    return 0.14 + 0.16 * (1 - _ramp(np.maximum(_aside(u), v), 0.45, 0.95)) + 0.7 * top
 
 
 _LENGTH: Mapping[str, Pattern] = {

@@ -186,3 +186,43 @@ class HairColourSettings:
     streak_colour: tuple[float, float, float] = colour("#d8b070", "Streak colour", "The colour of streaks.")
     streaks: float = number(0.0, "Streaks", "", 0.0, 1.0, "Part of the wisps that are streaks.")
     seed: int = integer(1, "Seed", 0, 2**31 - 1, "Start of the random numbers: the same seed gives the same colours.")
+
+
+@dataclass(frozen=True)
+class FacialHairSettings:
+    """Hair of the face: the same wisps on patches of their own. Its colour is that of the hair."""
+
+    style: str = choice("none", "Facial hair", FACIAL_HAIR, "Which hair of the face grows.")
+    length: float = number(
+        0.02,
+        "Length",
+        "m",
+        0.0005,
+        0.5,
+        "The longest hair of a beard; a moustache is a little shorter.",
+        shown="mm",
+        log=True,
+    )
+    strands: int = integer(20_000, "Strands", 1, 200_000, "How many strands there are in all.", log=True)
+    prototype: str = choice("wavy", "Prototype", PROTOTYPES, "The strand that all strands resemble.")
+    curl_size: float = number(
+        0.3, "Curl size", "", 0.0, 4.0, "How far curls reach sideways, as a multiple of the prototype."
+    )
+    curl_length: float = number(
+        0.4,
+        "Curl length",
+        "",
+        0.25,
+        4.0,
+        "How long curls are along the hair, as a multiple of the prototype.",
+        log=True,
+    )
+    protrusion: float = number(0.4, "Protrusion", "", 0.0, 1.0, "How far hair stands up from the skin.")
+    fuzziness: float = number(0.4, "Fuzziness", "", 0.0, 1.0, "Variation sigma of the strands in a wisp (eq. 1).")
+    stiffness: float = number(
+        2.5, "Bending stiffness", "", 0.0, 50.0, "Weight kappa of the hair's own shape against gravity (eq. 5)."
+    )
+    shaft: float = number(
+        45e-6, "Shaft", "m", 5e-6, 500e-6, "Half the thickness of a strand at its root.", shown="mm", log=True
+    )
+    seed: int = integer(1, "Seed", 0, 2**31 - 1, "Start of the random numbers: the same seed gives the same hair.")
