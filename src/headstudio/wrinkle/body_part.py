@@ -20,6 +20,8 @@ _NECK = 0.42
 _SCALP = 0.06
 # It ends this far in front of the ears [heights of the head].
 _BEFORE_EARS = 0.05
+# On the neck it ends this far behind them.
+_NECK_SIDES = 0.06
 # A whole head is opened at the crown, where no wrinkle is: a hole of this radius [heights of the head].
 _CROWN = 0.1
 # Rays that tell what is open to the air: directions, the least cosine to the normal, how far above the skin they start [m].
@@ -101,7 +103,11 @@ def face_part(head: Head) -> BodyPart:
     ears = 0.5 * (marks.left_tragus + marks.right_tragus)
     centres = head.skin.vertices[head.skin.faces].mean(axis=1)
     level = (centres[:, 1] > marks.chin[1] - _NECK * height) & (centres[:, 1] < marks.hairline[1] + _SCALP * height)
-    return body_part(head.skin, open_to_air(head) & level & (centres[:, 2] > ears[2] + _BEFORE_EARS * height))
+    # Below the ears the part reaches farther back, around the neck.
+    mouth = 0.5 * (marks.mouth_left + marks.mouth_right)
+    below = np.clip((mouth[1] - centres[:, 1]) / (mouth[1] - marks.chin[1]), 0.0, 1.0)
+    back = ears[2] + (_BEFORE_EARS - (_BEFORE_EARS + _NECK_SIDES) * below) * height
+    return body_part(head.skin, open_to_air(head) & level & (centres[:, 2] > back))
 
 
 def head_part(head: Head) -> BodyPart:

@@ -52,7 +52,7 @@ EXPRESSIONS: Mapping[str, Expression] = {
             "risorius": 0.5,
             "orbicularis oculi": 0.12,
         },
-        units={"mouth-corner-puller": 1.0, "mouth-retraction": 0.2, "nose-SIDE-dilatation": 0.2},
+        units={"mouth-corner-puller": 0.8, "mouth-retraction": 0.2, "nose-SIDE-dilatation": 0.2},
         upper_lid=0.08,
         lower_lid=0.35,
     ),
@@ -64,7 +64,7 @@ EXPRESSIONS: Mapping[str, Expression] = {
             "angular depressor": 0.22,
             "mentalis": 0.35,
         },
-        units={"eyebrows-SIDE-inner-up": 1.0, "mouth-depression": 0.8},
+        units={"eyebrows-SIDE-inner-up": 1.0, "mouth-depression": 0.6},
         upper_lid=0.08,
     ),
     "angry": Expression(
@@ -121,4 +121,4 @@ EXPRESSIONS: Mapping[str, Expression] = {
 smile (figures 2.10 to 2.13)."""
 
 BLINK = Expression(upper_lid=1.0, lower_lid=1.0, contractions={"orbicularis oculi": 0.1})
-JAW_OPEN = Expression(jaw=math.radians(22))
+JAW_OPEN = Expression(jaw=math.radians(18))

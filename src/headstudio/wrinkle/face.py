@@ -23,7 +23,7 @@ _NEGLIGIBLE = 1e-6
 # On each side of the middle, muscles of both sides share the skin, within this part of the height of the head.
 _SHARED = 0.045
 # How much of the turn of an eye its lids follow.
-_UPPER_FOLLOWS, _LOWER_FOLLOWS = 0.8, 0.3
+_UPPER_FOLLOWS, _LOWER_FOLLOWS = 0.7, 0.35
 _WIDEST_JAW = np.radians(26.0)
 _SHOWN = {**EXPRESSIONS, "blink": BLINK}
 
@@ -79,7 +79,7 @@ class Face:
             if (strength := settings.strength(name, side)) > 0
         }
         drive = self._drive(strengths, settings.jaw_open)
-        positions = self._rest + (self._fields @ self._activity(strengths, settings.driver)).reshape(-1, 3)
+        positions = self._rest + (self._fields @ self._activity(strengths, self._share_of_units(settings.driver))).reshape(-1, 3)
         if drive.jaw:
             jawed = self._jawed
             positions[jawed] = self._jaw.opened(jawed, positions[jawed], drive.jaw)
@@ -87,7 +87,9 @@ class Face:
             turn = lids.turns(drive.upper[side], drive.lower[side])
             positions[lids.vertices] = lids.turned(positions[lids.vertices], turn)
         if thickness is not None and settings.tissue_lift > 0 and (strengths or drive.jaw):
-            positions = self._tissue.lifted(positions, settings.tissue_lift * thickness)
+            # The sculptors of the units have put the tissue in already.
+            lift = settings.tissue_lift * (1.0 - self._share_of_units(settings.driver))
+            positions = self._tissue.lifted(positions, lift * thickness)
         for lids in self._lids.values():
             positions[lids.vertices] = lids.cleared(positions[lids.vertices])
         return FacePose(positions, tuple(self._posed_part(k, positions, drive) for k in range(len(self.head.parts))))
@@ -96,9 +98,12 @@ class Face:
         """The head with the skin and parts of a pose."""
         return replace(self.head, skin=self.head.skin.moved(pose.positions), parts=pose.parts)
 
-    def _activity(self, strengths: Mapping[tuple[str, str], float], driver: str) -> Floats:
+    def _share_of_units(self, driver: str) -> float:
+        """How much of an expression is left to units, 0 to 1."""
+        return {"muscles": 0.0, "units": 1.0, "both": 0.5}[driver] if self.has_units else 0.0
+
+    def _activity(self, strengths: Mapping[tuple[str, str], float], by_units: float) -> Floats:
         """How strongly every field acts, (columns,)."""
-        by_units = {"muscles": 0.0, "units": 1.0, "both": 0.5}[driver] if self.has_units else 0.0
         activity: dict[tuple[str, str, str], float] = {}
         for (name, side), strength in strengths.items():
             for muscle, amount in _SHOWN[name].contractions.items():

@@ -26,7 +26,9 @@ _HINGE_FORWARD = 0.05
 # Angles about the hinge [rad], down from it, beside where the lips meet: skull above, jaw below; and below the chin, where
 # the jaw ends and where the neck begins.
 _CHEEK = np.radians([-12.0, 10.0])
-_THROAT = np.radians([6.0, 34.0])
+_THROAT = np.radians([4.0, 60.0])
+# The neck begins so far from the hinge, in distances of the chin.
+_NECK = 1.6
 # Skin nearer to the hinge than this part of the way to the chin slides over the jaw.
 _CARRIED_FROM = 0.55
 # While the mouth opens the joint glides forward, per radian, as a part of the height of the head.
@@ -128,9 +130,10 @@ def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Mask, Mask]:
     mouth, chin = 0.5 * (marks.mouth_left + marks.mouth_right) - hinge, marks.chin - hinge
     corner_angle = np.arctan2(-mouth[1], mouth @ forward)
     chin_angle = np.arctan2(-chin[1], chin @ forward)
-    far = np.hypot(ahead, down) > _CARRIED_FROM * np.hypot(chin @ forward, chin[1])
+    distance = np.hypot(ahead, down) / np.hypot(chin @ forward, chin[1])
+    far = distance > _CARRIED_FROM
 
-    skull = (ahead < 0) | (angle < corner_angle + _CHEEK[0]) | (angle > chin_angle + _THROAT[1])
+    skull = (ahead < 0) | (angle < corner_angle + _CHEEK[0]) | (angle > chin_angle + _THROAT[1]) | (distance > _NECK)
     jawbone = far & (angle > corner_angle + _CHEEK[1]) & (angle < chin_angle + _THROAT[0])
     half_width = 0.5 * (seam[-1, 0] - seam[0, 0])
     beside = np.abs(points[:, 0] - 0.5 * (seam[-1, 0] + seam[0, 0])) / half_width

@@ -17,6 +17,8 @@ from .skin_layout import SkinLayout
 _SAMPLES = 64
 # A furrow fades out toward its ends over this many widths, or this part of its length if that is more.
 _FADE_WIDTHS, _FADE_PART = 4.0, 0.2
+# A vertex within this many widths of the curve lies on the floor.
+_FLOOR = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +91,8 @@ class LaidFurrow:
         mean = 0.5 * (metrics + self._metrics_at(first.t))
         found = nearest_on_curve(self.chain, places, mean)
         covector = np.einsum("kij,kj->ki", mean, places - self.chain.at(found.t))
-        toward = _divided(covector, found.distance)
+        # On the floor both sides meet and the slope is theirs on average, none; rounding must not choose one of them.
+        toward = _divided(covector, np.maximum(found.distance, _FLOOR * self.furrow.width))
 
         tangent = self.chain.tangents(found.t)
         arc = np.interp(found.t, self._t, self._arc)

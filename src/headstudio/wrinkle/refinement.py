@@ -17,7 +17,7 @@ from ..head.mesh import Floats, Ints, TriangleMesh
 from .refined_mesh import RefinedMesh
 
 # How long edges may be at a distance from a furrow, both in widths: near the sharp floor, on the bulge, on its slope.
-_BANDS = ((0.8, 1.0), (3.0, 2.4), (6.0, 5.0))
+_BANDS = ((0.7, 1.0), (2.6, 2.2), (5.0, 5.0))
 _MOST_ROUNDS = 40
 
 
@@ -64,7 +64,7 @@ def _allowed(middles: Floats, halves: Floats, trees: Sequence[tuple[FurrowLine, 
         reach = _BANDS[-1][0] * line.width
         low, high = line.points.min(axis=0) - reach, line.points.max(axis=0) + reach
         near = np.flatnonzero(((middles + halves[:, None] > low) & (middles - halves[:, None] < high)).all(axis=1))
-        away = np.maximum(tree.query(middles[near])[0] - halves[near], 0.0)
+        away = np.maximum(tree.query(middles[near])[0] - 0.5 * halves[near], 0.0)
         for distance, length in reversed(_BANDS):
             inside = near[away < distance * line.width]
             allowed[inside] = np.minimum(allowed[inside], length * fineness * line.width)

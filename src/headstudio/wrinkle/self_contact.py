@@ -14,7 +14,7 @@ from .furrow_bed import FurrowBed
 from .smooth_surface import PosedSurface, SmoothSurface
 
 # Bulges are kept apart up to this many widths from the floor.
-_WIDTHS = 6.0
+_WIDTHS = 4.0
 # A mate farther outside the map than this, in texture space, does not exist.
 _OFF_MAP = 1e-3
 

@@ -50,11 +50,13 @@ def amplitude(shrinkage: Floats, initial: Floats | float) -> Floats:
     """
     s, r = np.broadcast_arrays(np.asarray(shrinkage, dtype=np.float64), np.asarray(initial, dtype=np.float64))
     never = r == 0
-    stretched = r * np.exp(np.minimum(s, 0.0) * (1.0 / np.where(never, 1.0, r) - 1.0))
-    shrunk = (1.0 - r) * s + r
+    grown = (1.0 - r) * s + r
     if never.any():
-        shrunk = np.where(never, np.where(s < _CORNER, s**2 / (2 * _CORNER), s - _CORNER / 2), shrunk)
-    return np.where(s >= 0, shrunk, stretched)
+        grown = np.where(never, np.where(s < _CORNER, s**2 / (2 * _CORNER), s - _CORNER / 2), grown)
+    stretched = s < 0
+    some = r[stretched]
+    grown[stretched] = some * np.exp(s[stretched] * (1.0 / np.where(some == 0, 1.0, some) - 1.0))
+    return grown
 
 
 def _fade(x: Floats) -> tuple[Floats, Floats]:

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 
-SPREAD = 0.008
+SPREAD = 0.010
 """How far tissue that is pressed together gives way to the sides [m]: about as far as it is thick."""
 
 # A triangle counts as pressed together or drawn apart by no more than this: below, volume would ask for spikes.
