@@ -60,7 +60,17 @@ def foreseen(error: BaseException) -> bool:
     from ..scene.take import TakeError
     from ..wisp.adopt import AdoptError
 
-    own = HeadError | ParameterError | ProjectError | TakeError | PictureError | FilmError | HairFileError | AdoptError | RenderError
+    own = (
+        HeadError
+        | ParameterError
+        | ProjectError
+        | TakeError
+        | PictureError
+        | FilmError
+        | HairFileError
+        | AdoptError
+        | RenderError
+    )
     return isinstance(error, OSError | own)
 
 
