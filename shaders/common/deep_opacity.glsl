@@ -18,7 +18,3 @@ float hair_crossed(vec3 at) {
         crossed += (counts[k + 1] - counts[k]) * clamp((depth - depths[k]) / (depths[k + 1] - depths[k]), 0.0, 1.0);
     return crossed;
 }
-
-float all_hair(vec2 at) {
-    return textureLod(far_counts, at, 0.0).w;
-}

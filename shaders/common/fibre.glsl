@@ -46,13 +46,11 @@ vec3 around_hair(sampler3D table, float phi, float sin_out, vec3 absorption, vec
                 dot(along, textureLod(table, vec3(at, texel_place(place.b, count)), 0.0)));
 }
 
-// What goes on forward (first column) and what comes back (second) of the light at this inclination.
-void albedo(float sine, vec3 absorption, out vec3 forward, out vec3 back) {
+// Of the light at this inclination: what goes on forward, what comes back, and the integral of the lobes times cos(phi).
+mat3 albedo(float sine, vec3 absorption) {
     int count = textureSize(albedo_table, 0).y;
     vec3 place = coded(absorption);
-    vec2 r = textureLod(albedo_table, vec2(abs(sine), texel_place(place.r, count)), 0.0).rg;
-    vec2 g = textureLod(albedo_table, vec2(abs(sine), texel_place(place.g, count)), 0.0).rg;
-    vec2 b = textureLod(albedo_table, vec2(abs(sine), texel_place(place.b, count)), 0.0).rg;
-    forward = vec3(r.x, g.x, b.x);
-    back = vec3(r.y, g.y, b.y);
+    return transpose(mat3(textureLod(albedo_table, vec2(abs(sine), texel_place(place.r, count)), 0.0).rgb,
+                          textureLod(albedo_table, vec2(abs(sine), texel_place(place.g, count)), 0.0).rgb,
+                          textureLod(albedo_table, vec2(abs(sine), texel_place(place.b, count)), 0.0).rgb));
 }

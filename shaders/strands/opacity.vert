@@ -5,6 +5,7 @@ uniform mat4 map_from_head;
 uniform float texels_per_metre;  // of the map drawn into
 uniform float size;              // texels a side
 uniform float widening;
+uniform ivec3 tile;               // column and row in the texture, of so many a side
 out float v_cover;
 out vec3 v_at;
 
@@ -20,4 +21,5 @@ void main() {
     v_cover = half_width / drawn;
     gl_Position = vec4(place.xy + across * (side * drawn * 2.0 / size), place.zw);
     v_at = gl_Position.xyz * 0.5 + 0.5;
+    v_at.xy = (v_at.xy + vec2(tile.xy)) / float(tile.z);
 }

@@ -7,7 +7,6 @@ uniform sampler2D shades;
 uniform float metres_per_pixel;  // at distance 1 [m]
 uniform float widening;
 uniform bool blended;            // wide enough for a soft edge, or exactly as wide as it is
-uniform vec2 shift;              // of the whole picture, in clip units
 out vec3 v_colour;
 out float v_across;              // from the middle of the strand [pixels]
 flat out float v_half_width;     // [pixels]
@@ -27,5 +26,4 @@ void main() {
     v_across = side * drawn / pixel;
     v_half_width = half_width / pixel;
     gl_Position = clip_from_world * vec4(place + across * (side * drawn), 1.0);
-    gl_Position.xy += shift * gl_Position.w;
 }

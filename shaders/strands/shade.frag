@@ -6,6 +6,7 @@
 #include "common/strand_points.glsl"
 #include "common/deep_opacity.glsl"
 #include "common/fibre.glsl"
+#include "common/soft_light.glsl"
 uniform sampler2D hair_colours;
 uniform bool coloured;         // every point has a colour of its own
 uniform vec3 hair_absorption;  // else: per radius
@@ -37,8 +38,7 @@ void main() {
     vec3 at = light_box(place);
     float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at);
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
-    vec3 forward, back;
-    albedo(sin_in, absorption, forward, back);
+    vec3 forward = albedo(sin_in, absorption)[0];
     float direct = exp(-crossed);
     vec3 scattered = exp(-crossed * (1.0 - forward)) - direct;
 
@@ -47,7 +47,12 @@ void main() {
     seen += scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider));
     seen *= 3.14159265 * radiance.rgb * lit;
 
-    vec3 soft = mix(ground.rgb, sky.rgb, 0.5 + 0.5 * normalize(place - head_shift.xyz).y);
-    seen += soft * (forward * 0.3 + back) * 0.5;
+    mat4x3 soft = soft_light(texelFetch(points, texel, 0).xyz);
+    mat3 sent = albedo(sin_out, absorption);
+    vec3 aside = to_eye - along * sin_out;
+    vec3 mirrored = turned(-sin_out * along, -head_turn.xyz), towards = turned(aside, -head_turn.xyz);
+    vec3 slope_along = mat3(soft[1], soft[2], soft[3]) * mirrored;
+    vec3 slope_aside = mat3(soft[1], soft[2], soft[3]) * towards;
+    seen += max((sent[0] + sent[1]) * (soft[0] + slope_along) + sent[2] * slope_aside, 0.0);
     radiance_ = vec4(seen, 1.0);
 }

@@ -14,6 +14,7 @@ from ..head.mesh import Floats
 from .context import load_program, set_uniforms
 from .screen import ScreenPasses
 from .strand_points import StrandTextures
+from .view import View
 
 LAYER_DEPTHS = np.array([0.0015, 0.004, 0.008, 0.015, 0.027, 0.048, 0.085, 0.15])
 """Behind the first hair [m]; the last layer holds all that is still deeper, too."""
@@ -30,47 +31,64 @@ class OpacityPrograms:
         self.front = ScreenPasses(context, "front", room="strands")
 
 
-class DeepOpacityMap:
-    """One light's view of the hair, ``size`` x ``size`` texels."""
+class LightStrips:
+    """Strands as strips for the two programs of deep opacity maps: the first ``indices`` of an index buffer."""
 
-    def __init__(self, context: moderngl.Context, programs: OpacityPrograms, size: int) -> None:
+    def __init__(
+        self, context: moderngl.Context, programs: OpacityPrograms, textures: StrandTextures, strips: moderngl.Buffer
+    ) -> None:
+        self._programs = programs
+        self._textures = textures
+        self._depth, self._layers = (
+            context.vertex_array(program, [], strips) for program in (programs.depth, programs.layers)
+        )
+
+    def draw(self, layers: bool, indices: int, **uniforms: object) -> None:
+        """Draw into the framebuffer in use: into the layers, or the depth of the first strand alone."""
+        self._textures.points.use(0)
+        self._textures.tangents.use(1)
+        program, array = (self._programs.layers, self._layers) if layers else (self._programs.depth, self._depth)
+        set_uniforms(program, points=0, tangents=1, **uniforms)
+        array.render(moderngl.TRIANGLE_STRIP, vertices=indices)
+
+
+class DeepOpacityMap:
+    """How lights see the hair: one map of ``size`` x ``size`` texels for each, ``tiles`` a side in one texture."""
+
+    def __init__(self, context: moderngl.Context, programs: OpacityPrograms, size: int, tiles: int = 1) -> None:
         self.size = size
+        self.tiles = tiles
         self._context = context
         self._programs = programs
-        coarse = (max(size // _FRONT_REDUCTION, 1),) * 2
+        self._coarse = max(size // _FRONT_REDUCTION, 1)
+        coarse = (self._coarse * tiles,) * 2
         self._nearest = context.depth_texture(coarse)
         self._nearest.compare_func = ""
         self._nearest.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._nearest_target = context.framebuffer([], self._nearest)
         self.front = _smooth(context.texture(coarse, 1, dtype="f4"))
         self._front_target = context.framebuffer([self.front])
-        self.near_counts, self.far_counts = (_smooth(context.texture((size, size), 4, dtype="f2")) for _ in range(2))
+        self.near_counts, self.far_counts = (
+            _smooth(context.texture((size * tiles,) * 2, 4, dtype="f2")) for _ in range(2)
+        )
         self._counts_target = context.framebuffer([self.near_counts, self.far_counts])
-        self._depths: dict[str, tuple[float, ...]] = {}
+        self._depths: dict[str, object] = {}
 
-    def fill(
-        self,
-        strands: StrandTextures,
-        strips: dict[str, moderngl.VertexArray],
-        map_from_head: Floats,
-        box: float,
-        widening: float,
-    ) -> None:
-        """Draw the strands as the light sees them.
+    def fill(self, strips: LightStrips, indices: int, widening: float, pose: Floats, lights: list[View]) -> None:
+        """Draw the strands as the lights see them, which look at boxes of the same size.
 
-        strips: vertex arrays for the programs "depth" and "layers". map_from_head: 4 x 4, a parallel projection onto a box
-        of ``box`` metres a side. widening: how many times too thick the strands are to be taken, when there are fewer.
+        indices: how many of the strips. widening: how many times too thick the strands are to be taken, when there are
+        fewer. pose: world from head, 4 x 4.
         """
+        box = lights[0].far
         depths = LAYER_DEPTHS / box
         self._depths = {"near_depths": tuple(depths[:4]), "far_depths": tuple(depths[4:])}
-        strands.points.use(0)
-        strands.tangents.use(1)
-        common = {"points": 0, "tangents": 1, "map_from_head": tuple(map_from_head.T.ravel()), "widening": widening}
-        coarse = self.front.width
         with self._context.scope(self._nearest_target, moderngl.DEPTH_TEST):
             self._nearest_target.clear(depth=1.0)
-            set_uniforms(self._programs.depth, **common, size=float(coarse), texels_per_metre=coarse / box)
-            strips["depth"].render(moderngl.TRIANGLE_STRIP)
+            for tile, light in enumerate(lights):
+                self._look_at(self._nearest_target, tile, self._coarse)
+                self._draw(strips, False, indices, widening, light.clip_from_world @ pose, self._coarse, box, tile)
+            _whole(self._nearest_target)
         with self._context.scope(self._front_target, moderngl.NOTHING):
             self._nearest.use(2)
             self._programs.front.draw("front", nearest=2)
@@ -78,17 +96,42 @@ class DeepOpacityMap:
             self._context.blend_func = moderngl.ONE, moderngl.ONE
             self._counts_target.clear()
             self.front.use(2)
-            set_uniforms(
-                self._programs.layers, **common, **self._depths, size=float(self.size),
-                texels_per_metre=self.size / box, front=2,
-            )  # fmt: skip
-            strips["layers"].render(moderngl.TRIANGLE_STRIP)
+            for tile, light in enumerate(lights):
+                self._look_at(self._counts_target, tile, self.size)
+                self._draw(strips, True, indices, widening, light.clip_from_world @ pose, self.size, box, tile)
+            _whole(self._counts_target)
 
     def bind(self, first_unit: int) -> dict[str, object]:
         """Bind the textures to three units from ``first_unit`` on; returns the uniforms of common/deep_opacity.glsl."""
         for k, texture in enumerate((self.front, self.near_counts, self.far_counts)):
             texture.use(first_unit + k)
         return {"front": first_unit, "near_counts": first_unit + 1, "far_counts": first_unit + 2, **self._depths}
+
+    def _look_at(self, target: moderngl.Framebuffer, tile: int, size: int) -> None:
+        corner = (tile % self.tiles * size, tile // self.tiles * size)
+        target.viewport = target.scissor = (*corner, size, size)
+
+    def _draw(
+        self,
+        strips: LightStrips,
+        layers: bool,
+        indices: int,
+        widening: float,
+        matrix: Floats,
+        size: int,
+        box: float,
+        tile: int,
+    ) -> None:
+        strips.draw(
+            layers, indices, widening=widening, map_from_head=tuple(matrix.T.ravel()), size=float(size),
+            texels_per_metre=size / box, front=2, tile=(tile % self.tiles, tile // self.tiles, self.tiles),
+            **self._depths,
+        )  # fmt: skip
+
+
+def _whole(target: moderngl.Framebuffer) -> None:
+    target.scissor = None
+    target.viewport = (0, 0, *target.size)
 
 
 def _smooth(texture: moderngl.Texture) -> moderngl.Texture:

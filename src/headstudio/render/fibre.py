@@ -25,6 +25,8 @@ AZIMUTHS, SINES, ABSORPTIONS = 64, 24, 24
 """Size of the azimuthal tables: samples of phi in 0..pi, of the sine of theta in 0..1, and of the absorption."""
 
 _OFFSETS = 48
+# Of x / (1 + x), the last absorption in the tables; coded_most in common/fibre.glsl.
+_CODED_MOST = 0.98
 
 
 @dataclass(frozen=True)
@@ -150,8 +152,9 @@ class FibreTables:
     """What shaders read of a fibre, sampled at texel centres.
 
     around: A times N, (ABSORPTIONS, SINES, AZIMUTHS, LOBES). spread: the same for light that comes from anywhere within a
-    quarter turn of the light's azimuth, as it does after many hairs. albedo: the part of light that goes on forward and
-    the part that comes back, (ABSORPTIONS, SINES, 2).
+    quarter turn of the light's azimuth, as it does after many hairs. albedo: of the light that
+    is met, the part that goes on forward, the part that comes back, and the integral of the lobes times cos(phi),
+    (ABSORPTIONS, SINES, 3).
     """
 
     around: Floats
@@ -163,7 +166,7 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
     """The tables of a fibre. Absorption runs from 0 to infinity as x / (1 + x)."""
     phi = (np.arange(AZIMUTHS) + 0.5) / AZIMUTHS * np.pi
     sine = (np.arange(SINES) + 0.5) / SINES
-    coded = np.linspace(0.0, 1.0, ABSORPTIONS) * 0.98
+    coded = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)
     around = azimuthal(phi, sine, coded / (1 - coded), fibre).transpose(2, 1, 0, 3)
     quarter = AZIMUTHS // 2
     # The lobes are even in phi: samples beyond 0 and pi are those within.
@@ -173,7 +176,15 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
     step = 2 * np.pi / AZIMUTHS
     back = around[:, :, :quarter].sum(axis=(2, 3)) * step
     forward = around[:, :, quarter:].sum(axis=(2, 3)) * step
-    return FibreTables(around, spread, np.stack([forward, back], axis=-1))
+    towards = (around.sum(axis=3) * np.cos(phi)).sum(axis=2) * step
+    return FibreTables(around, spread, np.stack([forward, back, towards], axis=-1))
+
+
+def forward_albedo(tables: FibreTables, absorption: Floats) -> Floats:
+    """The part of light that goes on forward behind a strand of this absorption, RGB, (3,), at a middling inclination."""
+    coded = absorption / (1 + absorption)
+    place = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)
+    return np.interp(coded, place, tables.albedo[:, SINES // 2, 0])
 
 
 def _bravais(sin_out: Floats, index: float) -> Floats:

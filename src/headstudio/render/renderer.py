@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from ..scene.settings import Camera, Look
 from ..scene.stage import Stage
 from .body import Body, BodyPrograms
+from .fibre import Fibre, colour_absorption
 from .hair import Hair, HairPrograms
 from .overlays import OverlayPass
-from .fibre import Fibre, colour_absorption
 from .scene_block import SCENE_DTYPE, linear, scene_block
 from .screen import ScreenPasses
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms

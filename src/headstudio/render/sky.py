@@ -43,7 +43,7 @@ def hidden_from_sky(context: moderngl.Context, body: TriangleMesh, points: Float
     depth.use(0)
     centre = body.bounds.mean(axis=0)
     radius = float(np.linalg.norm(body.vertices - centre, axis=1).max()) + 4 * _OFFSET
-    for direction in _sphere(_DIRECTIONS):
+    for direction in sphere_directions(_DIRECTIONS):
         matrix = parallel_view(direction, centre, radius).clip_from_world.T.astype(np.float32)
         set_uniforms(depth_program, map_from_world=tuple(matrix.ravel()))
         set_uniforms(seen_program, map_from_world=tuple(matrix.ravel()), direction=tuple(direction))
@@ -57,7 +57,7 @@ def hidden_from_sky(context: moderngl.Context, body: TriangleMesh, points: Float
     return 1.0 - np.divide(seen, all_, out=np.ones_like(seen), where=all_ > 0)
 
 
-def _sphere(count: int) -> Floats:
+def sphere_directions(count: int) -> Floats:
     """Directions spread evenly, (count, 3): a Fibonacci spiral."""
     k = np.arange(count) + 0.5
     height = 1 - 2 * k / count

@@ -11,14 +11,20 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from ..wisp.strands import Strands
 from .context import load_program, set_uniforms
-from .deep_opacity import DeepOpacityMap, OpacityPrograms
-from .fibre import Fibre, colour_slope, fibre_tables
+from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
+from .fibre import Fibre, FibreTables, colour_absorption, colour_slope, fibre_tables, forward_albedo
+from .light_volume import LightVolume, grid_around
+from .receivers import receive
 from .screen import ScreenPasses
+from .sky_light import Sky, SkyLight
 from .strand_points import POINT_ROW, StrandTextures, pack, piece_indices, strip_indices
 from .targets import LightTargets
 from .view import View
 
 _DEPTH_LEVELS = 65535
+
+SKY_STRANDS = 5_000
+"""Strands, spread evenly over all, that stand for the hair when soft light looks for its way through it."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +46,7 @@ class StrandPrograms:
     def __init__(self, context: moderngl.Context) -> None:
         self.opacity = OpacityPrograms(context)
         self.ribbon = load_program(context, "strands/ribbon.vert", "strands/ribbon.frag")
-        self.screens = ScreenPasses(context, "shade", "light_map", room="strands")
+        self.screens = ScreenPasses(context, "shade", "light_map", "sunlit", room="strands")
 
 
 class StrandHair:
@@ -54,14 +60,13 @@ class StrandHair:
         self.reach = float(np.linalg.norm(strands.points, axis=1).max(initial=0.0))
         """How far strands reach from the origin of the head frame [m]."""
         self.shown = min(shown, packed.count)
-        self.widening = packed.count / max(self.shown, 1)
+        self.widening = strands.stands_for * packed.count / max(self.shown, 1)
         self._shown_points = int(packed.first[self.shown])
         self._textures = StrandTextures(context, packed)
-        strips = context.buffer(strip_indices(packed.first, self.shown))
-        self._light_strips = {
-            name: context.vertex_array(program, [], strips)
-            for name, program in (("depth", programs.opacity.depth), ("layers", programs.opacity.layers))
-        }
+        indices = strip_indices(packed.first, self.shown)
+        self._indices = len(indices)
+        strips = context.buffer(indices)
+        self._light_strips = LightStrips(context, programs.opacity, self._textures, strips)
         self._whole = context.vertex_array(programs.ribbon, [], strips)
         self._pieces, amid = piece_indices(packed.first, self.shown)
         self._amid = packed.points[amid, :3]
@@ -70,8 +75,13 @@ class StrandHair:
         self._shades = context.texture((POINT_ROW, self._textures.rows), 4, dtype="f2")
         self._shades.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._shade_target = context.framebuffer([self._shades])
-        self._opacity: DeepOpacityMap | None = None
+        self.opacity: DeepOpacityMap | None = None
+        self._first = packed.first
+        self._mean_colour = None if packed.colour is None else packed.colour.mean(axis=0).astype(float)
+        self._grid = grid_around(strands.points)
+        self._soft: LightVolume | None = None
         self._fibre: Fibre | None = None
+        self._tables: FibreTables
 
     def suits(self, strands: Strands, shown: int) -> bool:
         """True if these are those strands in that detail."""
@@ -79,16 +89,47 @@ class StrandHair:
 
     def shed_light(self, light: View, frame: HeadFrame, maps: LightTargets, size: int) -> None:
         """Draw the strands as the light sees them, and what they let through into the light map, for the skin."""
-        if self._opacity is None or self._opacity.size != size:
-            self._opacity = DeepOpacityMap(self._context, self._programs.opacity, size)
-        matrix = light.clip_from_world @ _pose(frame)
-        self._opacity.fill(self._textures, self._light_strips, matrix, light.far, self.widening)
+        if self.opacity is None or self.opacity.size != size:
+            self.opacity = DeepOpacityMap(self._context, self._programs.opacity, size)
+        self.opacity.fill(self._light_strips, self._indices, self.widening, _pose(frame), [light])
         with self._context.scope(maps.light, moderngl.NOTHING):
-            self._programs.screens.draw("light_map", **self._opacity.bind(2))
+            maps.depth.compare_func = ""
+            maps.depth.use(5)
+            self._programs.screens.draw("light_map", body=5, **self.opacity.bind(2))
+            maps.depth.compare_func = "<="
+
+    def see_from_sky(self, sky_light: SkyLight, centre: Floats, radius: float) -> None:
+        """Show the hair to the sky; ``centre`` and ``radius`` [m] of a sphere around hair and body, head frame."""
+        strands = min(SKY_STRANDS, self.shown)
+        indices = int(2 * self._first[strands] + strands)
+        sky_light.see_hair(self._light_strips, indices, self.strands.count / strands, centre, radius)
+
+    def take_soft_light(self, sky_light: SkyLight, sky: Sky, lost: Floats) -> None:
+        """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
+        if self._soft is not None:
+            self._soft.release()
+        self._soft = LightVolume(self._context, self._grid, sky_light.gather(self._grid.places, sky, lost))
+
+    def lost(self, material: StrandMaterial) -> Floats:
+        """Of light that meets a strand, the part that does not go on, RGB, in the mean over the hair."""
+        self._prepare_fibre(material.fibre)
+        absorption = np.array(material.absorption)
+        if self._mean_colour is not None:
+            absorption = colour_absorption(self._mean_colour, material.fibre.radial_roughness)
+        return 1.0 - forward_albedo(self._tables, absorption)
+
+    def sunlit(self, places: Floats, maps: LightTargets, lost: Floats) -> Floats:
+        """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3): RGB, (n, 3)."""
+        assert self.opacity is not None
+        maps.depth.use(1)
+        maps.map.use(2)
+        uniforms = {"shadow_map": 1, "light_map": 2, "lost": tuple(lost), **self.opacity.bind(3)}
+        return receive(self._context, self._programs.screens, "sunlit", places, 1, **uniforms)[:, 0, :3]
 
     def shade(self, material: StrandMaterial) -> None:
         """Work out the radiance of every point that is shown; texture 0 is the shadow map, 1 the light map."""
-        assert self._opacity is not None
+        assert self.opacity is not None
+        assert self._soft is not None
         self._prepare_fibre(material.fibre)
         textures = self._textures
         textures.points.use(2)
@@ -113,7 +154,7 @@ class StrandHair:
         rows = -(-self._shown_points // POINT_ROW)
         with self._context.scope(self._shade_target, moderngl.NOTHING):
             self._shade_target.viewport = (0, 0, POINT_ROW, max(rows, 1))
-            self._programs.screens.draw("shade", **uniforms, **self._opacity.bind(8))
+            self._programs.screens.draw("shade", **uniforms, **self.opacity.bind(8), **self._soft.bind(11))
 
     def draw_blended(self, view: View, frame: HeadFrame, height: int) -> None:
         """Strands in order, farthest first, over the framebuffer in use, ``height`` pixels high."""
@@ -127,24 +168,24 @@ class StrandHair:
         self._use(view, height, blended=True)
         self._sorted_array.render(moderngl.TRIANGLE_STRIP)
 
-    def draw_opaque(self, view: View, height: int, shift: tuple[float, float]) -> None:
-        """Strands exactly as wide as they are, hidden by what is in front of them; ``shift`` moves the picture, clip units."""
-        self._use(view, height, blended=False, shift=shift)
+    def draw_opaque(self, view: View, height: int) -> None:
+        """Strands exactly as wide as they are, hidden by what is in front of them."""
+        self._use(view, height, blended=False)
         self._whole.render(moderngl.TRIANGLE_STRIP)
 
-    def _use(self, view: View, height: int, blended: bool, shift: tuple[float, float] = (0.0, 0.0)) -> None:
+    def _use(self, view: View, height: int, blended: bool) -> None:
         self._textures.points.use(2)
         self._textures.tangents.use(3)
         self._shades.use(4)
         set_uniforms(
             self._programs.ribbon, points=2, tangents=3, shades=4, widening=self.widening, blended=blended,
-            shift=shift, metres_per_pixel=2.0 / (view.focal * height),
+            metres_per_pixel=2.0 / (view.focal * height),
         )  # fmt: skip
 
     def _prepare_fibre(self, fibre: Fibre) -> None:
         if fibre == self._fibre:
             return
-        tables = fibre_tables(fibre)
+        tables = self._tables = fibre_tables(fibre)
         self._around, self._spread = (self._volume(values) for values in (tables.around, tables.spread))
         absorptions, sines, parts = tables.albedo.shape
         self._albedo = self._context.texture(

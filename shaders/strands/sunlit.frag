@@ -1,0 +1,15 @@
+#version 330
+// The part of the parallel light that reaches a place past the body and through the hair.
+#include "common/scene.glsl"
+#include "common/pose.glsl"
+#include "common/shadow.glsl"
+#include "common/deep_opacity.glsl"
+uniform sampler2D receivers;  // places in the head frame [m]
+uniform vec3 lost;            // of light that meets a strand, the part that does not go on
+out vec4 lit;
+
+void main() {
+    vec3 place = turned(texelFetch(receivers, ivec2(gl_FragCoord.xy), 0).xyz, head_turn.xyz) + head_shift.xyz;
+    vec3 at = light_box(place + to_light.xyz * 0.001);
+    lit = vec4(past_objects_at(at, 0.001) * exp(-lost * hair_crossed(at)), 1.0);
+}

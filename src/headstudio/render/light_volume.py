@@ -1,0 +1,79 @@
+"""Soft light between the strands: worked out on a grid that is only filled where hair is, and read by every point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from ..head.mesh import Floats, Ints
+from ..wisp.strands import Singles
+
+FINEST = 0.004
+"""Distance of grid nodes [m], where the hair is not too large for it."""
+
+MOST_NODES = 600_000
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Nodes around hair. low: the first node [m]; spacing [m]; shape: nodes along x, y and z; near_hair: the flat index
+    (x fastest) of every node that some point of the hair reads, (k,)."""
+
+    low: Floats
+    spacing: float
+    shape: tuple[int, int, int]
+    near_hair: Ints
+
+    @property
+    def places(self) -> Floats:
+        """Where the nodes near hair are [m], (k, 3)."""
+        x, rest = self.near_hair % self.shape[0], self.near_hair // self.shape[0]
+        return self.low + self.spacing * np.stack([x, rest % self.shape[1], rest // self.shape[1]], axis=1)
+
+
+def grid_around(points: Singles) -> Grid:
+    """The grid around points of hair [m], (p, 3)."""
+    low, high = points.min(axis=0).astype(float), points.max(axis=0).astype(float)
+    spacing = max(FINEST, float(np.cbrt(np.prod(high - low + FINEST) / MOST_NODES)))
+    cells = np.floor((points - low.astype(np.float32)) / np.float32(spacing)).astype(np.int64)
+    nx, ny, nz = (int(n) for n in cells.max(axis=0) + 2)
+    flat = cells[:, 0] + nx * (cells[:, 1] + ny * cells[:, 2])
+    used = np.zeros(nx * ny * nz, bool)
+    used[flat] = True
+    cell = np.flatnonzero(used)
+    for step in (1, nx, nx * ny):
+        cell = np.concatenate([cell, cell + step])
+    used[cell] = True
+    return Grid(low, spacing, (nx, ny, nz), np.flatnonzero(used))
+
+
+class LightVolume:
+    """The light at the nodes of a grid as three textures, one a colour."""
+
+    def __init__(self, context: moderngl.Context, grid: Grid, light: Floats) -> None:
+        """``light`` at the nodes near hair: mean and slope for every colour, (k, 3, 4)."""
+        self._grid = grid
+        self._colours = []
+        for colour in range(3):
+            values = np.zeros((int(np.prod(grid.shape)), 4), np.float16)
+            values[grid.near_hair] = light[:, colour]
+            texture = context.texture3d(grid.shape, 4, values, dtype="f2")
+            texture.repeat_x = texture.repeat_y = texture.repeat_z = False
+            self._colours.append(texture)
+
+    def bind(self, first_unit: int) -> dict[str, object]:
+        """Bind the textures to three units from ``first_unit`` on; returns the uniforms of common/soft_light.glsl."""
+        for k, texture in enumerate(self._colours):
+            texture.use(first_unit + k)
+        size = self._grid.spacing * np.array(self._grid.shape)
+        return {
+            "soft_red": first_unit, "soft_green": first_unit + 1, "soft_blue": first_unit + 2,
+            "soft_low": tuple(self._grid.low - 0.5 * self._grid.spacing), "soft_size": tuple(size),
+        }  # fmt: skip
+
+    def release(self) -> None:
+        """Give the textures back."""
+        for texture in self._colours:
+            texture.release()

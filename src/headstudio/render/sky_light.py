@@ -1,0 +1,114 @@
+"""The soft light inside hair: what comes from all over the sky past the body and through the hair, and from the skin.
+
+The sky is a few dozen lights, each with its own deep opacity map and its own view of the body. At any place the light
+that arrives is kept as a mean and a slope for each colour (spherical harmonics up to the first degree), which hair and
+skin turn into what they send on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from ..head.mesh import Floats, Ints
+from .context import load_program, set_uniforms
+from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
+from .receivers import receive
+from .screen import ScreenPasses
+from .sky import sphere_directions
+from .view import View, parallel_view
+
+PAIRS = 16
+"""Pairs of opposite directions that stand for the sky."""
+
+MAP_SIZE = 192
+_TILES = 6
+# Places this near under the surface still see past it [m].
+_BIAS = 0.003
+
+
+class SkyPrograms:
+    """The shaders of the soft light."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self.body = load_program(context, "strands/body_light.vert", "strands/body_light.frag")
+        self.gather = ScreenPasses(context, "gather", room="strands")
+
+
+@dataclass(frozen=True)
+class Sky:
+    """Radiance of the sky from above and from below, linear RGB, and where above is, in the head frame."""
+
+    above: Floats
+    below: Floats
+    upward: Floats
+
+
+class SkyLight:
+    """The sky as seen through one hairstyle on one body; in the head frame."""
+
+    def __init__(
+        self, context: moderngl.Context, programs: SkyPrograms, opacity: OpacityPrograms, vertices: Floats, faces: Ints
+    ) -> None:
+        self._context = context
+        self._programs = programs
+        self._hair = DeepOpacityMap(context, opacity, MAP_SIZE, _TILES)
+        side = MAP_SIZE * _TILES
+        self._body = context.texture((side, side), 4, dtype="f4")
+        self._body.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self._body_target = context.framebuffer([self._body], context.depth_texture((side, side)))
+        self._radiance = context.buffer(reserve=max(12 * len(vertices), 4))
+        self._surface = context.vertex_array(
+            programs.body,
+            [
+                (context.buffer(vertices.astype("f4").tobytes()), "3f", "position"),
+                (self._radiance, "3f", "radiance"),
+            ],
+            context.buffer(faces.astype("u4").tobytes()),
+        )
+        half = sphere_directions(2 * PAIRS)[:PAIRS]
+        self._lights: list[View] = []
+        self._directions = np.stack([half, -half], axis=1).reshape(-1, 3)
+        self._frames = context.texture((3, 2 * PAIRS), 3, dtype="f4")
+        self._frames.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self._centre, self._radius = np.zeros(3), 1.0
+
+    def see_hair(self, strips: LightStrips, indices: int, widening: float, centre: Floats, radius: float) -> None:
+        """Look at the hair from everywhere; ``centre`` and ``radius`` [m] of a sphere around hair and body."""
+        self._centre, self._radius = centre, radius
+        self._lights = [parallel_view(direction, centre, radius) for direction in self._directions]
+        frames = np.array([[light.right, light.up, -light.forward] for light in self._lights], np.float32)
+        self._frames.write(frames)
+        self._hair.fill(strips, indices, widening, np.eye(4), self._lights)
+
+    def see_body(self, radiance: Floats) -> None:
+        """Look at the body from everywhere; ``radiance`` of every vertex, linear RGB, (n, 3)."""
+        self._radiance.write(radiance.astype("f4").tobytes())
+        target = self._body_target
+        with self._context.scope(target, moderngl.DEPTH_TEST):
+            target.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+            for tile, light in enumerate(self._lights):
+                target.viewport = (tile % _TILES * MAP_SIZE, tile // _TILES * MAP_SIZE, MAP_SIZE, MAP_SIZE)
+                set_uniforms(self._programs.body, map_from_head=tuple(light.clip_from_world.T.ravel()))
+                self._surface.render()
+            target.viewport = (0, 0, *target.size)
+
+    def gather(self, places: Floats, sky: Sky, lost: Floats) -> Floats:
+        """The light that arrives at ``places`` [m], (n, 3): mean and slope for every colour, (n, 3, 4).
+
+        lost: of light that meets a strand, the part that does not go on, RGB.
+        """
+        self._frames.use(1)
+        self._body.use(2)
+        return receive(
+            self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=_TILES,
+            centre=tuple(self._centre), radius=self._radius, lost=tuple(lost), sky_above=tuple(sky.above),
+            sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS, **self._hair.bind(3),
+        )  # fmt: skip
+
+
+def irradiance(light: Floats, normals: Floats) -> Floats:
+    """What falls on surfaces with these unit normals, (n, 3), in such light, (n, 3, 4): linear RGB, (n, 3)."""
+    return np.pi * np.maximum(light[:, :, 0] + 2 / 3 * np.einsum("nci,ni->nc", light[:, :, 1:], normals), 0.0)
