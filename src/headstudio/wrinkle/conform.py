@@ -1,12 +1,14 @@
 """Edges along the floor of a furrow, so that it is as sharp on the mesh as it is in equation 2.1.
 
 Vertices close to the curve are slid onto it over the surface; where the curve still crosses an edge, the edge is split
-at the crossing. What was a ragged band of triangles across the floor becomes a chain of edges in it.
+at the crossing. What was a ragged band of triangles across the floor becomes a chain of edges in it. The same is done at
+a small distance on either side, so that the walls of the furrow are even strips, lit evenly.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
 from .laid_furrow import LaidFurrow
@@ -23,27 +25,35 @@ _CUT = 0.08
 _LEFT = 0.15
 # Where less than this of a furrow's depth is there, it needs no edge.
 _FAINT = 0.02
+# Triangles within this many widths of the curve can be cut; the lines beside it are nearer than that.
+_NEAR = 1.2
 
 Mask = np.ndarray
 
 
-def conform(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, fixed: Mask) -> tuple[RefinedMesh, Mask]:
-    """Bring a chain of edges onto a furrow. fixed: vertices that stay where they are, (N,); returned with those on it."""
+def conform(
+    refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, offset: float, fixed: Mask
+) -> tuple[RefinedMesh, Mask]:
+    """Bring a chain of edges onto a furrow, or onto the line ``offset`` [m] to the left of it (below 0: right).
+
+    fixed: vertices that stay where they are, (N,); returned with those on the line.
+    """
     faces = _faces_near(refined, layout, furrow)
     near = np.unique(refined.faces[faces])
     beside = furrow.beside(layout.uv(refined, near), layout.metrics(refined, near))
-    signed, t = np.zeros(len(fixed)), np.zeros(len(fixed))
+    signed, target = np.zeros(len(fixed)), np.full((len(fixed), 2), np.nan)
     useful = np.zeros(len(fixed), dtype=bool)
-    signed[near], t[near] = beside.side * beside.distance, beside.t
-    useful[near] = beside.inside & (beside.fade > _FAINT)
+    signed[near] = beside.side * beside.distance - offset
+    useful[near] = beside.inside & (beside.fade > _FAINT) & ((beside.side * offset > 0) | (offset == 0))
+    target[near] = furrow.beside_curve(beside, layout.uv(refined, near), abs(offset))
 
     shortest = _shortest_edges(refined, faces)
     wanted = near[(np.abs(signed[near]) < _SNAP * shortest[near]) & useful[near] & ~fixed[near]]
-    refined, snapped = _slide(refined, layout, furrow, faces, wanted, t)
+    refined, snapped = _slide(refined, layout, furrow, faces, wanted, target)
     on_curve = np.zeros(len(fixed), dtype=bool)
     on_curve[snapped] = True
 
-    edges, edge_of = unique_edges(refined.faces)
+    edges, near_edge_of = unique_edges(refined.faces[faces])
     a, b = edges.T
     crossed = useful[a] & useful[b] & (signed[a] * signed[b] < 0) & ~on_curve[a] & ~on_curve[b]
     # Two sides of a fold are far apart along the curve, or farther from it than the edge is long.
@@ -52,18 +62,22 @@ def conform(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, fixed:
     fraction = np.divide(np.abs(signed[a]), np.abs(signed[a]) + np.abs(signed[b]), out=np.zeros(len(a)), where=crossed)
     crossed &= (fraction > _CUT) & (fraction < 1 - _CUT)
     if crossed.any():
-        number = np.where(crossed, np.cumsum(crossed) - 1, -1)
-        refined = refined.split(number[edge_of], edges[crossed], fraction[crossed])
+        edge_of = np.full(refined.faces.shape, -1)
+        edge_of[faces] = np.where(crossed, np.cumsum(crossed) - 1, -1)[near_edge_of]
+        refined = refined.split(edge_of, edges[crossed], fraction[crossed])
     added = np.ones(len(refined.home) - len(fixed), dtype=bool)
     return refined, np.concatenate([fixed | on_curve, added])
 
 
 def _faces_near(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow) -> Ints:
-    """Mapped triangles with a corner in the box around the furrow."""
-    margin = 2.0 * furrow.furrow.width
-    low, high = furrow.points.min(axis=0) - margin, furrow.points.max(axis=0) + margin
-    inside = ((refined.vertices > low) & (refined.vertices < high)).all(axis=1)
-    return np.flatnonzero(inside[refined.faces].any(axis=1) & layout.mapped[refined.parent])
+    """Mapped triangles with a corner close to the furrow."""
+    reach = _NEAR * furrow.furrow.width
+    low, high = furrow.points.min(axis=0) - reach, furrow.points.max(axis=0) + reach
+    boxed = np.flatnonzero(((refined.vertices > low) & (refined.vertices < high)).all(axis=1))
+    line = cKDTree(furrow.line(0.25 * furrow.furrow.width))
+    close = np.zeros(len(refined.home), dtype=bool)
+    close[boxed] = np.isfinite(line.query(refined.vertices[boxed], distance_upper_bound=reach)[0])
+    return np.flatnonzero(close[refined.faces].any(axis=1) & layout.mapped[refined.parent])
 
 
 def _shortest_edges(refined: RefinedMesh, faces: Ints) -> Floats:
@@ -77,14 +91,12 @@ def _shortest_edges(refined: RefinedMesh, faces: Ints) -> Floats:
 
 
 def _slide(
-    refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, faces: Ints, wanted: Ints, t: Floats
+    refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, faces: Ints, wanted: Ints, target: Floats
 ) -> tuple[RefinedMesh, Ints]:
-    """Move ``wanted`` vertices onto the curve, but for those that would turn a triangle over; and which were moved."""
+    """Move ``wanted`` vertices to ``target``, (N, 2), but for those that would turn a triangle over; and which were."""
     corners = refined.faces[faces]
     uv, weights = layout.face_uv(refined, faces)
     uv = np.stack([layout.whole(uv[:, k], float(furrow.chain.controls[:, 0].mean())) for k in range(3)], axis=1)
-    target = np.full((len(refined.home), 2), np.nan)
-    target[wanted] = furrow.place_on_curve(t[wanted])
     before = signed_areas(uv)
     moving = np.zeros(len(refined.home), dtype=bool)
     moving[wanted] = True

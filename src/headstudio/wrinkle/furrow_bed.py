@@ -51,7 +51,8 @@ def prepare_bed(layout: SkinLayout, furrows: Sequence[Furrow], fineness: float =
     refined = refine_around(layout.skin, lines, fineness)
     fixed = np.zeros(len(refined.home), dtype=bool)
     for furrow in laid:
-        refined, fixed = conform(refined, layout, furrow, fixed)
+        for part in (0.0, fineness, -fineness):
+            refined, fixed = conform(refined, layout, furrow, part * furrow.furrow.width, fixed)
     entries = [_within_reach(refined, layout, furrow) for furrow in laid]
     return FurrowBed(
         layout,

@@ -17,8 +17,9 @@ from .skin_layout import SkinLayout
 _SAMPLES = 64
 # A furrow fades out toward its ends over this many widths, or this part of its length if that is more.
 _FADE_WIDTHS, _FADE_PART = 4.0, 0.2
-# A vertex within this many widths of the curve lies on the floor.
-_FLOOR = 0.05
+# Within this many widths of the curve the two walls blend into each other for shading.
+_FLOOR = 0.35
+_TINY = np.finfo(float).tiny
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +28,8 @@ class Beside:
 
     t: parameter of the nearest point of the curve, (k,). distance: to it on the skin [m], (k,). side: 1 left, -1 right,
     (k,). inside: whether the point lies beside the curve and not past an end, (k,). fade: how much of the depth is
-    there, 0 at the ends to 1, (k,). toward: gradient of the distance in texture space [m], (k, 2), zero on the curve.
-    along: gradient of the fade [1], (k, 2).
+    there, 0 at the ends to 1, (k,). toward: gradient of the distance in texture space [m], (k, 2), going down to zero on the curve.
+    along: gradient of the fade, (k, 2).
     """
 
     t: Floats
@@ -77,21 +78,23 @@ class LaidFurrow:
         at = np.linspace(0.0, self.length, count + 1)
         return np.stack([np.interp(at, self._arc, self.points[:, k]) for k in range(3)], axis=1)
 
-    def place_on_curve(self, t: Floats) -> Floats:
-        """Texture coordinates of points of the curve, (k, 2)."""
-        return self.chain.at(t)
+    def beside_curve(self, beside: Beside, uv: Floats, distance: float) -> Floats:
+        """Points, (k, 2), that lie where ``uv`` do but at another distance from the curve [m]."""
+        foot = self.chain.at(beside.t)
+        return foot + (self._whole(uv) - foot) * (distance / np.maximum(beside.distance, _TINY))[:, None]
 
     def beside(self, uv: Floats, metrics: Floats) -> Beside:
         """Where points of texture space, (k, 2), lie beside the furrow. metrics: G there, (k, 2, 2).
 
         Lengths are measured with the mean of G at the point and at the curve.
         """
-        places = self.layout.whole(uv, float(self.chain.controls[:, 0].mean()))
+        places = self._whole(uv)
         first = nearest_on_curve(self.chain, places, metrics)
         mean = 0.5 * (metrics + self._metrics_at(first.t))
         found = nearest_on_curve(self.chain, places, mean)
         covector = np.einsum("kij,kj->ki", mean, places - self.chain.at(found.t))
-        # On the floor both sides meet and the slope is theirs on average, none; rounding must not choose one of them.
+        # On the floor both sides meet, and the slope is theirs on average: none. It comes on over the first triangles, so
+        # that shading does not depend on how far from the floor their corners happen to be.
         toward = _divided(covector, np.maximum(found.distance, _FLOOR * self.furrow.width))
 
         tangent = self.chain.tangents(found.t)
@@ -104,6 +107,13 @@ class LaidFurrow:
         return Beside(
             found.t, found.distance, found.side, ~found.beyond, part**2 * (3 - 2 * part), toward, rise[:, None] * along
         )
+
+    def mirrored(self, t: Floats, uv: Floats) -> Floats:
+        """Points, (k, 2), as far on the other side of the curve as ``uv`` are, whose nearest points are at t, (k,)."""
+        return 2 * self.chain.at(t) - self._whole(uv)
+
+    def _whole(self, uv: Floats) -> Floats:
+        return self.layout.whole(uv, float(self.chain.controls[:, 0].mean()))
 
     def _metrics_at(self, t: Floats) -> Floats:
         flat = self._metrics.reshape(-1, 4)

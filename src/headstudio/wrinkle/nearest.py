@@ -12,7 +12,8 @@ from .bezier import BezierChain, bend, polynomial, slope
 # A curve is first looked at in this many places; the best few are then made exact by Newton's method.
 _SAMPLES = 16
 _CANDIDATES = 3
-_NEWTON_STEPS = 12
+_NEWTON_STEPS = 30
+_SETTLED = 1e-10
 # So many points are treated at a time, to bound memory.
 _BATCH = 8192
 
@@ -87,7 +88,11 @@ def _newton(coefficients: Floats, u: Floats, points: Floats, metrics: Floats) ->
         # Where the distance is not convex, a Gauss-Newton step falls at least.
         curvature = np.maximum(np.where(curvature > 0, curvature, speed), np.finfo(float).tiny)
         step = u - gradient / curvature
-        u = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
+        step = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
+        settled = np.abs(step - u).max(initial=0.0) < _SETTLED
+        u = step
+        if settled:
+            break
     return u
 
 

@@ -17,6 +17,7 @@ class RefinedMesh:
 
     coarse: n vertices, m triangles; its vertices come first and in order. home: the coarse triangle that each vertex lies
     in, (N,). weights: where in it, (N, 3). faces: (M, 3). parent: the coarse triangle that each of them lies in, (M,).
+    vertices: positions on the flat coarse triangles [m], (N, 3).
     """
 
     coarse: TriangleMesh
@@ -24,6 +25,7 @@ class RefinedMesh:
     weights: Floats
     faces: Ints
     parent: Ints
+    vertices: Floats
 
     @classmethod
     def unrefined(cls, coarse: TriangleMesh) -> RefinedMesh:
@@ -35,15 +37,7 @@ class RefinedMesh:
             home[corner] = np.arange(len(coarse.faces))
             weights[corner] = 0.0
             weights[corner, k] = 1.0
-        return cls(coarse, home, weights, coarse.faces, np.arange(len(coarse.faces)))
-
-    @cached_property
-    def vertices(self) -> Floats:
-        """Positions on the flat triangles of the coarse mesh [m], (N, 3)."""
-        places = np.einsum("ij,ijk->ik", self.weights, self.coarse.vertices[self.coarse.faces[self.home]])
-        loose = self.weights.sum(axis=1) == 0
-        places[loose] = self.coarse.vertices[np.flatnonzero(loose)]
-        return places
+        return cls(coarse, home, weights, coarse.faces, np.arange(len(coarse.faces)), coarse.vertices)
 
     @cached_property
     def added(self) -> Ints:
@@ -81,22 +75,27 @@ class RefinedMesh:
         owner[edge_of[has]] = np.broadcast_to(self.parent[:, None], edge_of.shape)[has]
         part = fraction[:, None]
         weights = (1 - part) * self.weights_in(edges[:, 0], owner) + part * self.weights_in(edges[:, 1], owner)
-        refined = RefinedMesh(
+        vertices = np.concatenate([self.vertices, self._places(owner, weights)])
+        middle = np.where(has, count + edge_of, -1)
+        cut = has.any(axis=1)
+        faces, source = _split_triangles(self.faces[cut], middle[cut], vertices)
+        return RefinedMesh(
             self.coarse,
             np.concatenate([self.home, owner]),
             np.concatenate([self.weights, weights]),
-            self.faces,
-            self.parent,
+            np.concatenate([self.faces[~cut], faces]),
+            np.concatenate([self.parent[~cut], self.parent[cut][source]]),
+            vertices,
         )
-        middle = np.where(has, count + edge_of, -1)
-        faces, source = _split_triangles(self.faces, middle, refined.vertices)
-        return RefinedMesh(self.coarse, refined.home, refined.weights, faces, self.parent[source])
 
     def moved(self, vertices: Ints, home: Ints, weights: Floats) -> RefinedMesh:
         """The mesh with some vertices, (k,), at other places of the surface."""
-        homes, places = self.home.copy(), self.weights.copy()
-        homes[vertices], places[vertices] = home, weights
-        return RefinedMesh(self.coarse, homes, places, self.faces, self.parent)
+        homes, places, positions = self.home.copy(), self.weights.copy(), self.vertices.copy()
+        homes[vertices], places[vertices], positions[vertices] = home, weights, self._places(home, weights)
+        return RefinedMesh(self.coarse, homes, places, self.faces, self.parent, positions)
+
+    def _places(self, home: Ints, weights: Floats) -> Floats:
+        return np.einsum("ki,kid->kd", weights, self.coarse.vertices[self.coarse.faces[home]])
 
 
 def _split_triangles(faces: Ints, middle: Ints, vertices: Floats) -> tuple[Ints, Ints]:

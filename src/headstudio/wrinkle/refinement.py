@@ -36,11 +36,17 @@ def refine_around(mesh: TriangleMesh, lines: Sequence[FurrowLine], fineness: flo
     """
     refined = RefinedMesh.unrefined(mesh)
     trees = [(line, cKDTree(line.points)) for line in lines]
+    known = 0
     for _ in range(_MOST_ROUNDS):
         edges, edge_of = unique_edges(refined.faces)
         start, end = refined.vertices[edges[:, 0]], refined.vertices[edges[:, 1]]
         length = np.linalg.norm(end - start, axis=1)
-        marked = length > _allowed(0.5 * (start + end), 0.5 * length, trees, fineness)
+        # What was short enough before still is; every new edge ends at a new vertex.
+        fresh = edges[:, 1] >= known
+        known = len(refined.home)
+        marked = np.zeros(len(edges), dtype=bool)
+        allowed = _allowed(0.5 * (start + end)[fresh], 0.5 * length[fresh], trees, fineness)
+        marked[fresh] = length[fresh] > allowed
         if not marked.any():
             break
         marked = _longest_first(marked, edge_of, length)

@@ -32,10 +32,8 @@ class Folds:
         for k, laid in enumerate(bed.furrows):
             own = np.flatnonzero(bed.furrow[first] == k)
             entries = first[own]
-            uv = bed.layout.whole(
-                bed.layout.uv(bed.refined, bed.vertex[entries]), float(laid.chain.controls[:, 0].mean())
-            )
-            mirrored[own] = 2 * laid.place_on_curve(bed.beside.t[entries]) - uv
+            uv = bed.layout.uv(bed.refined, bed.vertex[entries])
+            mirrored[own] = laid.mirrored(bed.beside.t[entries], uv)
         found, off = bed.layout.locate(mirrored)
         exists = off < _OFF_MAP
         part = bed.layout.part

@@ -1,0 +1,149 @@
+"""The face chart: one flat face that all heads share, so that furrows move from head to head through the landmarks.
+
+The chart is the front of an average head rolled off a cylinder about the skull, which bends back into the neck: x to the person's left and y upward [m],
+both zero at the nasion. The smoothest map that takes the chart's landmarks to those of a head (polyharmonic splines) takes
+a furrow there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.interpolate import RBFInterpolator
+
+from ..head.head import Head
+from ..head.locate import Locator
+from ..head.mesh import Floats
+from .bezier import BezierChain, fit_stroke
+from .furrow import Furrow
+from .skin_layout import SkinLayout
+
+# Landmarks of the chart [m], from MakeHuman's adults and the mannequin.
+_MIDDLE = {
+    "hairline": (0.0, 0.060),
+    "glabella": (0.0, 0.013),
+    "nasion": (0.0, 0.0),
+    "nose_tip": (0.0, -0.038),
+    "chin": (0.0, -0.108),
+}
+_LEFT = {
+    ("left_eye", "right_eye"): (0.033, -0.003),
+    ("mouth_left", "mouth_right"): (0.0235, -0.068),
+    ("left_tragus", "right_tragus"): (0.145, -0.026),
+}
+# The neck's axis: reached this far below the chin, this far in front of the nape [heights of the head].
+_NECK_LEVEL, _NECK_RADIUS = 0.1, 0.22
+# A furrow is carried over by samples this close [m], and fitted again to within this [m].
+_SPACING = 5e-4
+_TOLERANCE = 5e-5
+# Rays that look for the skin start this far from the axis of the skull [m].
+_OUTSIDE = 0.5
+# Rounds that invert the map, and the error they are to leave [m].
+_INVERSION_ROUNDS, _INVERSION_ERROR = 60, 1e-7
+
+
+class FaceChart:
+    """The face chart of one head. layout: its skin and the map of its face."""
+
+    def __init__(self, head: Head, layout: SkinLayout) -> None:
+        self.layout = layout
+        marks = head.landmarks
+        ears = 0.5 * (marks.left_tragus + marks.right_tragus)
+        height = marks.crown[1] - marks.chin[1]
+        # Where the axis leaves the skull's and where it reaches the neck's [m]: levels, and its depth there.
+        mouth = 0.5 * (marks.mouth_left + marks.mouth_right)
+        self._bend = float(mouth[1]), float(marks.chin[1] - _NECK_LEVEL * height)
+        self._depths = float(ears[2]), float(marks.nape[2] + _NECK_RADIUS * height)
+        self._radius = float(marks.glabella[2] - ears[2])
+        chart, names = _chart_landmarks()
+        rolled = self._rolled(np.array([getattr(marks, name) for name in names]))
+        self._to_head = RBFInterpolator(chart, rolled, kernel="cubic")
+        self._to_chart = RBFInterpolator(rolled, chart, kernel="cubic")
+        self._skin = Locator(layout.part.mesh.vertices, layout.part.mesh.faces)
+
+    def on_skin(self, chart: Floats) -> Floats:
+        """Points of the skin [m], (k, 3), at points of the chart [m], (k, 2); nan where the face does not reach."""
+        rolled = self._to_head(chart)
+        angle = rolled[:, 0] / self._radius
+        outward = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1)
+        starts = self._axis_at(rolled[:, 1]) + _OUTSIDE * outward
+        distance = self._skin.first_hit(starts, -outward)
+        reached = distance < _OUTSIDE
+        return np.where(reached[:, None], starts - np.where(reached, distance, 0.0)[:, None] * outward, np.nan)
+
+    def from_skin(self, points: Floats) -> Floats:
+        """Points of the chart [m], (k, 2), for points of the skin [m], (k, 3)."""
+        rolled = self._rolled(points)
+        chart = self._to_chart(rolled)
+        for _ in range(_INVERSION_ROUNDS):
+            error = rolled - self._to_head(chart)
+            if np.abs(error).max(initial=0.0) < _INVERSION_ERROR:
+                break
+            # Each map is nearly the other's inverse, so what is missing is carried over as a small step.
+            chart = chart + self._to_chart(rolled + error) - self._to_chart(rolled)
+        return chart
+
+    def to_texture(self, furrow: Furrow) -> Furrow | None:
+        """A furrow of the chart in the texture space of this head; None when less than half of it meets the face.
+
+        What lies off the face is left out: the neck of a bust may end early.
+        """
+        skin = self.on_skin(_sampled(furrow.chain, 1.0))
+        on_face = _longest_run(np.isfinite(skin).all(axis=1))
+        if len(on_face) < max(0.5 * len(skin), 2):
+            return None
+        return self.stroke_in_texture(furrow, skin[on_face])
+
+    def to_chart(self, furrow: Furrow) -> Furrow:
+        """A furrow of this head's texture space on the chart."""
+        found, _ = self.layout.locate(_sampled(furrow.chain, self.layout.texture_map.metres))
+        mesh = self.layout.part.mesh
+        return self.stroke_on_chart(furrow, found.blend(mesh.vertices, mesh.faces))
+
+    def stroke_in_texture(self, furrow: Furrow, skin: Floats) -> Furrow:
+        """``furrow`` along points of the skin [m], (k, 3), in texture space. Raises ValueError for less than two points."""
+        texture_map = self.layout.texture_map
+        found, _ = self._skin.nearest(skin)
+        uv = np.einsum("ki,kij->kj", found.weights, texture_map.corner_uv[found.faces])
+        if texture_map.wrapped:
+            uv[:, 0] = np.unwrap(uv[:, 0], period=1.0)
+        return replace(furrow, controls=_controls(uv, _TOLERANCE / texture_map.metres))
+
+    def stroke_on_chart(self, furrow: Furrow, skin: Floats) -> Furrow:
+        """``furrow`` along points of the skin [m], (k, 3), on the chart. Raises ValueError for less than two points."""
+        return replace(furrow, controls=_controls(self.from_skin(skin), _TOLERANCE))
+
+    def _rolled(self, points: Floats) -> Floats:
+        """Arc length around the skull and height [m], (k, 2)."""
+        local = points - self._axis_at(points[:, 1])
+        return np.stack([self._radius * np.arctan2(local[:, 0], local[:, 2]), points[:, 1]], axis=1)
+
+    def _axis_at(self, levels: Floats) -> Floats:
+        """Points of the axis at levels [m], (k,): between the ears, and farther back in the neck, (k, 3)."""
+        part = np.clip((self._bend[0] - levels) / (self._bend[0] - self._bend[1]), 0.0, 1.0)
+        depth = self._depths[0] + (self._depths[1] - self._depths[0]) * part**2 * (3.0 - 2.0 * part)
+        return np.stack([np.zeros_like(levels), levels, depth], axis=1)
+
+
+def _chart_landmarks() -> tuple[Floats, list[str]]:
+    """Landmarks of the chart [m], (k, 2), and their names."""
+    names = [*_MIDDLE, *(name for pair in _LEFT for name in pair)]
+    sides = [(side * x, y) for x, y in _LEFT.values() for side in (1.0, -1.0)]
+    return np.array([*_MIDDLE.values(), *sides]), names
+
+
+def _sampled(chain: BezierChain, metres: float) -> Floats:
+    """Points of a chain, some half a millimetre apart, (k, 2); ``metres`` is the length of its unit."""
+    hull = np.linalg.norm(np.diff(chain.controls, axis=0), axis=1).sum() * metres
+    return chain.sampled(int(np.clip(hull / _SPACING / chain.count, 8, 400)))[1]
+
+
+def _longest_run(flags: np.ndarray) -> np.ndarray:
+    """The indices of the longest run of true values."""
+    runs = np.split(np.arange(len(flags)), np.flatnonzero(np.diff(flags)) + 1)
+    return max((run for run in runs if flags[run[0]]), key=len, default=np.zeros(0, dtype=np.int64))
+
+
+def _controls(points: Floats, tolerance: float) -> tuple[tuple[float, float], ...]:
+    return tuple((float(x), float(y)) for x, y in fit_stroke(points, tolerance).controls)
