@@ -21,17 +21,24 @@ from .surroundings import Surroundings
 LANE = 0.5  # part of the tolerance that lanes take up
 SAMPLING = 0.0025  # of trajectories [m]
 
-# Hair that is held is taut: Psi of a point or a trajectory is this long, so that beside it the stiffness of a segment
-# counts as little as it does among the longer segments of the paper. Where a wisp would miss, Psi grows by up to URGENCY.
-_TAUT, _URGENCY = 3.0, 6.0
-# Where that begins: so many segments from a point.
-_NEAR = 4.0
+# Hair that is held is taut: Psi of a point or a trajectory is so many times the stiffness that it works against, however
+# stiff the hair. Off a trajectory by the tolerance it is ASTRAY more; so many segments from a point, NEAR over their
+# square.
+_TAUT, _ASTRAY, _NEAR = 1.3, 2.5, 200.0
 # From the last so many segments on, a wisp takes a bow that makes a joint end on the point.
 _BOW = 6
 _AHEAD = 1.5  # how far ahead on a trajectory a wisp aims, in segments
 # What hair is led away from, in proportions of the head, while it is so near to the skin [m].
 _FACE, _BESIDE_SKIN = np.array([0.0, -1.0, 1.2]), 0.03
 _PRESS = 0.05  # at this distance from a tie hair may be twice as dense as elsewhere [m]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """What all joints have in common: the length of a segment [m] and its stiffness, kappa of eq. 5 for this length."""
+
+    segment: float
+    stiffness: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,8 +69,8 @@ class Constraint(Protocol):
     def begin(self, ends: Floats, lanes: Floats) -> Progress:
         """The wisps whose ends are at ``ends`` [m], (k, 3), come under the constraint."""
 
-    def pull(self, ends: Floats, lanes: Floats, progress: Progress, segment: float) -> Pull:
-        """What it does to the next segment, of length ``segment`` [m]."""
+    def pull(self, ends: Floats, lanes: Floats, progress: Progress, joint: Joint) -> Pull:
+        """What it does to the next segment."""
 
     def judge(self, ends: Floats, lanes: Floats, progress: Progress) -> Progress:
         """Where the wisps stand after that segment."""
@@ -88,15 +95,18 @@ class PointConstraint:
         near = self._distance(ends) <= self.tolerance
         return Progress(np.zeros(len(ends), dtype=np.int64), near, near.copy())
 
-    def pull(self, ends: Floats, lanes: Floats, progress: Progress, segment: float) -> Pull:
+    def pull(self, ends: Floats, lanes: Floats, progress: Progress, joint: Joint) -> Pull:
         """Toward the wisp's lane through the point; near it harder, in a bow whose joints come out even."""
         way = self.point + LANE * self.tolerance * lanes - ends
         distance = np.linalg.norm(way, axis=1)
-        urgency = _TAUT + _URGENCY * np.minimum(1.0, (_NEAR * segment / np.maximum(distance, 1e-6)) ** 2)
+        segments = distance / joint.segment
+        urgency = (1.0 + joint.stiffness) * (_TAUT + _NEAR / np.maximum(segments, 0.5) ** 2)
         toward = unit(way, otherwise=np.broadcast_to([0.0, -1.0, 0.0], way.shape))
+        outward = np.broadcast_to([0.0, -1.0, 0.0], way.shape)
         if self.surroundings is not None:
-            toward = _over_scalp(self.surroundings, ends, toward)
-        psi = urgency[:, None] * _bowed(toward, distance / segment)
+            over, outward = _over_scalp(self.surroundings, ends, toward)
+            toward = np.where((segments > _BOW)[:, None], over, toward)
+        psi = urgency[:, None] * _bowed(toward, outward, segments, (1 - LANE) * 0.8 * self.tolerance / joint.segment)
         press = 1.0 + (_PRESS / np.maximum(self._distance(ends) - self.tolerance, 1e-3)) ** 2
         return Pull(psi, np.full(len(ends), self.weight), press)
 
@@ -113,34 +123,36 @@ class PointConstraint:
         return np.linalg.norm(ends - self.point, axis=1)
 
 
-def _over_scalp(surroundings: Surroundings, ends: Floats, toward: Floats) -> Floats:
-    """Unit directions, (k, 3), to something that may lie behind the head: where the straight way goes into the skin hair
-    turns away from the face, as a comb would lead it, since along the skin both ways around may look alike.
+def _over_scalp(surroundings: Surroundings, ends: Floats, toward: Floats) -> tuple[Floats, Floats]:
+    """Unit directions, (k, 3), to something that may lie behind the head, and away from the skin, (k, 3).
+
+    Where the straight way goes into the skin hair turns away from the face, as a comb would lead it, since along the
+    skin both ways around may look alike.
     """
     distance, outward = surroundings.distance_and_gradient(ends)
     blocked = np.clip(-np.einsum("ij,ij->i", toward, outward), 0.0, 1.0) * (distance < _BESIDE_SKIN)
     from_face = unit(ends - surroundings.proportions.place(_FACE), otherwise=toward)
-    return unit(toward + blocked[:, None] * from_face, otherwise=toward)
+    return unit(toward + blocked[:, None] * from_face, otherwise=toward), outward.astype(np.float64)
 
 
-def _bowed(toward: Floats, segments: Floats) -> Floats:
-    """Unit directions, (k, 3), that start a bow of equal segments to a point ``segments`` of them away, (k,).
+def _bowed(toward: Floats, outward: Floats, segments: Floats, slack: float) -> Floats:
+    """Unit directions, (k, 3), that start a bow of equal segments to a point ``segments`` of them away, (k,), and ``toward``
+    it, (k, 3). The bow stands out to the side of ``outward``, (k, 3), where there is room. To end ``slack`` segments short is
+    near enough.
 
     Segments of one length reach a point in a straight line only from a whole number of them away. Else n of them make an
     arc whose chord is the distance; its first segment leaves the chord by (n - 1) / 2 of the angle at a joint. The arc's
     chord is s sin(n a / 2) / sin(a / 2), exact here for two segments and to the fourth order of a for more.
     """
-    count = np.ceil(segments - 1e-9)
+    count = np.ceil(segments - slack)
     bowing = (count >= 2) & (count <= _BOW)
     count = np.where(bowing, count, 2.0)
     part = np.clip(np.where(bowing, segments, 2.0) / count, 0.0, 1.0)
     angle = np.where(count == 2, 2.0 * np.arccos(part), np.sqrt(24.0 * (1.0 - part) / (count**2 - 1.0)))
     off = np.clip(0.5 * (count - 1.0) * angle, 0.0, 1.3)[:, None]
-    side = unit(np.cross(toward, [0.0, 0.0, 1.0]), otherwise=np.broadcast_to([1.0, 0.0, 0.0], toward.shape))
-    # The bow hangs to the side on which the segment comes out lowest: as hair would.
-    low = np.cross(toward, side)
-    low = np.where(low[:, 1:2] > 0, -low, low)
-    return np.cos(off) * toward + np.sin(off) * low
+    least = np.eye(3)[np.abs(toward).argmin(axis=1)]
+    free = outward - np.einsum("ij,ij->i", outward, toward)[:, None] * toward
+    return np.cos(off) * toward + np.sin(off) * unit(free, otherwise=unit(np.cross(toward, least), otherwise=least))
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,13 +210,15 @@ class TrajectoryConstraint:
         met = self._off(ends, lanes, along) <= self.tolerance
         return Progress(along, met, along >= len(self.path.samples) - 1)
 
-    def pull(self, ends: Floats, lanes: Floats, progress: Progress, segment: float) -> Pull:
+    def pull(self, ends: Floats, lanes: Floats, progress: Progress, joint: Joint) -> Pull:
         """Along the trajectory, and toward it in the measure of the distance."""
-        ahead = round(_AHEAD * segment / SAMPLING)
+        ahead = round(_AHEAD * joint.segment / SAMPLING)
         goal = self.path.samples[np.minimum(progress.along + ahead, len(self.path.samples) - 1)]
         way = goal + self._offset(lanes) - ends
         astray = np.minimum(self._off(ends, lanes, progress.along) / self.tolerance, 1.0)
-        psi = (_TAUT + _URGENCY * astray)[:, None] * unit(way, otherwise=self.path.tangents[progress.along])
+        psi = ((1.0 + joint.stiffness) * (_TAUT + _ASTRAY * astray))[:, None] * unit(
+            way, otherwise=self.path.tangents[progress.along]
+        )
         return Pull(psi, np.full(len(ends), self.weight), np.full(len(ends), np.inf))
 
     def judge(self, ends: Floats, lanes: Floats, progress: Progress) -> Progress:
@@ -243,7 +257,7 @@ class DirectionConstraint:
         along = self.path.nearest(ends)
         return Progress(along, self._within(ends, along), nobody)
 
-    def pull(self, ends: Floats, lanes: Floats, progress: Progress, segment: float) -> Pull:
+    def pull(self, ends: Floats, lanes: Floats, progress: Progress, joint: Joint) -> Pull:
         """Along the tangent of the nearest place, inside the radius; nothing outside."""
         within = self._within(ends, progress.along)
         return Pull(self.path.tangents[progress.along], np.where(within, self.weight, 0.0), np.ones(len(ends)))

@@ -37,7 +37,7 @@ class Flow:
     """Hair that is being laid: every wisp has a current end, which a segment is added to.
 
     frames: of all segments laid so far, as Outlines.frames. laid: how many segments each wisp has got, (W,).
-    ends: current ends [m], (W, 3).
+    ends: current ends [m], (W, 3). stiffness: kappa of eq. 5 for segments of this length.
     """
 
     def __init__(self, outlines: Outlines, density: DensityField, force: ForceField, kappa: float, tau: float) -> None:
@@ -51,7 +51,7 @@ class Flow:
         self._density = density
         self._force = force
         self._tau = tau
-        self._kappa = joint_stiffness(kappa, outlines.segment)
+        self.stiffness = joint_stiffness(kappa, outlines.segment)
         self._amounts = (outlines.strands * outlines.segment).astype(np.float64)
 
     def unfinished(self, wisps: Ints) -> Ints:
@@ -85,7 +85,7 @@ class Flow:
         carried = self._turned[wisps] @ rest
         straight = carried[:, :, 2]
         clearance = self._clearance(wisps, joint)
-        direction = most_aligned(force, straight, self._kappa)
+        direction = most_aligned(force, straight, self.stiffness)
         direction = self._slide(start, direction, clearance)
         direction = self._make_room(start, direction, clearance, ceiling - self._density.added(self._amounts[wisps]))
         frames = turn(carried, straight, direction)

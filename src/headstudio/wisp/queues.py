@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..head.mesh import Floats, Ints
-from .constraints import Constraint, Progress
+from .constraints import Constraint, Joint, Progress
 from .flow import Flow
 from .joints import unit
 from .selection import Selection
@@ -96,7 +96,9 @@ class QueueRun:
             return Order(wisps, force, np.maximum(self._tau, self._pressed[active]))
         constraint = self._queue.constraints[self._step]
         progress = _part(self._progress, active)
-        pull = constraint.pull(flow.ends[wisps], self._lanes[active], progress, flow.outlines.segment)
+        pull = constraint.pull(
+            flow.ends[wisps], self._lanes[active], progress, Joint(flow.outlines.segment, flow.stiffness)
+        )
         weight = pull.weight[:, None]
         return Order(wisps, (1.0 - weight) * force + weight * pull.psi, self._tau * pull.press)
 

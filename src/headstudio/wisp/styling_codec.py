@@ -76,7 +76,7 @@ def _fields_of(item: Any) -> dict[str, Any]:
 
 
 def _item(value: Any, kinds: Kinds) -> Any:
-    if not isinstance(value, dict) or value.get("kind") not in kinds:
+    if not isinstance(value, dict) or value.get("kind") not in list(kinds):
         raise ValueError(f"holds something whose kind is none of {', '.join(kinds)}")
     name = value["kind"]
     kind = kinds[name]
@@ -116,7 +116,7 @@ def _normal(value: Any, what: str) -> tuple[float, float, float]:
 
 
 def _path(value: Any, what: str) -> tuple[tuple[float, float, float], ...]:
-    if not isinstance(value, list) or len(value) == 1:
+    if not isinstance(value, list) or len(value) < 2:
         raise ValueError(f"gives the {what} as something that is no list of two places or more")
     path = tuple(_place(place, what) for place in value)
     if any(a == b for a, b in pairwise(path)):

@@ -1,0 +1,78 @@
+import numpy as np
+import pytest
+
+from headstudio.wisp.field import PRESETS, force_field
+from headstudio.wisp.strokes import Stroke
+from headstudio.wisp.styling_settings import StylingSettings
+
+from .dressed import body
+
+PLACES = np.random.default_rng(2).uniform(-2, 2, (400, 3))
+
+
+def field_at(places, **settings) -> np.ndarray:
+    _, _, surroundings = body()
+    return force_field(StylingSettings(**settings), surroundings).at(surroundings.proportions.place(np.asarray(places)))
+
+
+def test_every_preset_is_a_parameter_and_no_longer_than_its_weight():
+    for name, preset in PRESETS.items():
+        vectors = preset(PLACES, StylingSettings(**{name: 1.0}))
+        assert np.linalg.norm(vectors, axis=1).max() <= (1.7 if name == "blown" else 1.0 + 1e-9)
+        assert np.linalg.norm(vectors, axis=1).max() > 0.5
+
+
+def test_the_field_is_the_weighted_sum_of_its_presets():
+    both = field_at(PLACES, gravity=0.7, back=1.3)
+    alone = 0.7 * field_at(PLACES, gravity=1.0) + 1.3 * field_at(PLACES, gravity=0.0, back=1.0)
+    assert both == pytest.approx(alone, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("settings", "place", "direction"),
+    [
+        ({"gravity": 1.0}, (0.3, 0.2, 0.1), (0, -1, 0)),
+        ({"back": 1.0}, (0.0, 1.0, 0.8), (0, 0, -1)),
+        ({"forward": 1.0}, (0.0, 1.0, 0.2), (0, 0, 1)),
+        ({"left": 1.0}, (0.0, 1.0, 0.2), (1, 0, 0)),
+        ({"right": 1.0}, (0.0, 1.0, 0.2), (-1, 0, 0)),
+        ({"up": 1.0}, (0.0, 1.0, 0.2), (0, 1, 0)),
+        ({"spiky": 1.0}, (0.0, 0.0, 1.2), (0, 0, 1)),
+        ({"blown": 1.0, "blown_heading": np.pi / 2}, (0.0, 0.0, 0.0), (1, 0, 0)),
+        ({"parted": 1.0, "parting": 0.3}, (0.1, 1.0, 0.2), (-1, 0, 0)),
+        ({"off_face": 1.0}, (0.4, -0.3, 1.0), (1, 0, 0)),
+        ({"inward": 1.0}, (1.2, -1.0, 0.0), (-1, 0, 0)),
+    ],
+)
+def test_presets_pull_where_their_names_say(settings, place, direction):
+    force = field_at([place], **{"gravity": 0.0, **settings})[0]
+    assert force @ np.array(direction) > 0.8 * np.linalg.norm(force) > 0.2
+
+
+def test_hair_follows_a_stroke_inside_its_radius_and_not_far_away():
+    stroke = Stroke(((1.3, 0.8, 0.0), (1.3, -0.6, -0.8)), 0.04, 1.5)
+    along = np.array(stroke.path)
+    middle = along.mean(axis=0)
+    drawn, plain = field_at([middle], strokes=(stroke,))[0], field_at([middle])[0]
+    _, _, surroundings = body()
+    tangent = (along[1] - along[0]) * surroundings.proportions.extent
+    assert drawn == pytest.approx(1.5 * tangent / np.linalg.norm(tangent), abs=0.02)
+    assert not np.allclose(drawn, plain, atol=0.2)
+    far = [[-1.5, 0.0, 0.0], [0.0, -3.0, 0.0]]
+    assert field_at(far, strokes=(stroke,)) == pytest.approx(field_at(far), abs=0.02)
+
+
+def test_between_two_strokes_the_field_goes_over_smoothly():
+    left, right = Stroke(((0.6, 1.5, -0.3), (0.6, 1.5, 0.3))), Stroke(((-0.6, 1.5, 0.3), (-0.6, 1.5, -0.3)))
+    across = np.stack([np.linspace(0.6, -0.6, 13), np.full(13, 1.5), np.zeros(13)], axis=1)
+    forward = field_at(across, gravity=0.0, strokes=(left, right), stroke_reach=0.2)[:, 2]
+    assert forward[0] == pytest.approx(1.0, abs=0.05)
+    assert forward[-1] == pytest.approx(-1.0, abs=0.05)
+    assert np.all(np.diff(forward) < 0.01)
+    assert np.abs(np.diff(forward)).max() < 0.5
+
+
+def test_a_stroke_finer_than_the_grid_still_counts():
+    place = np.array([1.2, 0.5, 0.0])
+    thin = Stroke((tuple(place), tuple(place + np.array([0.0, 0.0, 0.05]))), 0.005, 2.0)
+    assert np.abs(field_at([place], strokes=(thin,)) - field_at([place])).max() > 0.1
