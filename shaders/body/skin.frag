@@ -1,68 +1,21 @@
 #version 330
-#include "common/scene.glsl"
-#include "common/shadow.glsl"
+// What the skin is like at a pixel; light.frag is the light on it.
 #include "common/strands.glsl"
-uniform vec3 skin_colour;
-uniform vec3 hair_colour;
-in vec3 v_place;
+in float v_distance;  // from the eye, along its gaze [m]
 in vec3 v_rest;
 in vec3 v_normal;
 in vec4 v_paint;  // occlusion, lips, brows, flush
 in float v_cover;  // how densely hair stands
-out vec4 colour;
-
-// Light creeps around the edge of the shadow, red the farthest, since red travels farthest under the skin.
-const vec3 wrap = vec3(0.34, 0.15, 0.09);
-
-float fifth(float x) {
-    float square = x * x;
-    return square * square * x;
-}
-
-float lobe(float n_h, float n_l, float n_v, float roughness) {
-    float a2 = roughness * roughness * roughness * roughness;
-    float d = n_h * n_h * (a2 - 1.0) + 1.0;
-    float k = roughness * roughness * 0.5;
-    return a2 / (3.14159 * d * d) / (4.0 * mix(n_l, 1.0, k) * mix(n_v, 1.0, k));
-}
+layout(location = 0) out vec4 normal;  // and how much of the ground hair covers
+layout(location = 1) out vec4 paint;   // occlusion, lips, brows, flush
+layout(location = 2) out float distance_;
 
 void main() {
+    // Brow hairs lie outwards and up: fine strokes, not a stain.
+    float stroke = textureLod(strands, vec2(9.0 * (0.6 * abs(v_rest.x) - 0.8 * v_rest.y), 0.5), 0.0).r;
+    float brow = smoothstep(0.2, 0.8, v_paint.z * (0.9 + 0.4 * stroke)) * 0.9;
     vec3 n = normalize(v_normal);
-    vec3 to_eye = normalize(eye.xyz - v_place);
-    vec3 l = to_light.xyz;
-    if (!gl_FrontFacing) n = -n;
-
-    float lips = v_paint.y, brows = v_paint.z, flush = v_paint.w;
-    vec3 albedo = skin_colour;
-    albedo *= mix(vec3(1.0), vec3(1.06, 0.80, 0.78), flush);
-    albedo = mix(albedo, skin_colour * vec3(0.86, 0.44, 0.46), lips * 0.85);
-    // Brow hairs lie outwards and up: fine strokes, not a stain. Where long hair grows the ground is dark between it.
-    float stroke = texture(strands, vec2(9.0 * (0.6 * abs(v_rest.x) - 0.8 * v_rest.y), 0.5)).r;
-    float brow = smoothstep(0.2, 0.8, brows * (0.9 + 0.4 * stroke)) * 0.9;
-    float cover = smoothstep(0.0, 1.0, v_cover);
-    albedo = mix(albedo, hair_colour * 0.35, max(brow, cover));
-
-    float lit = light_at(v_place + n * 0.0015, 0.0015 + 0.003 * (1.0 - max(dot(n, l), 0.0)), 0.004);
-    vec3 soft_lit = vec3(lit * (1.3 - 0.3 * lit), lit, lit);
-
-    float n_l = dot(n, l);
-    vec3 wrapped = clamp((vec3(n_l) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 diffuse = mix(wrapped * wrapped, vec3(max(n_l, 0.0)), 0.35) * soft_lit;
-
-    float open = 1.0 - v_paint.x;
-    // Light bounces between nearby skin: cavities go red-brown before they go black.
-    vec3 open_tint = open * (1.0 + vec3(0.30, -0.05, -0.14) * (1.0 - open));
-    vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * open_tint;
-
-    vec3 h = normalize(l + to_eye);
-    float n_h = max(dot(n, h), 0.0), n_v = max(dot(n, to_eye), 0.0), front = max(n_l, 0.0);
-    float fresnel = 0.028 + 0.972 * fifth(1.0 - max(dot(h, to_eye), 0.0));
-    float rough = mix(0.48, 0.34, lips);
-    float shine = mix(lobe(n_h, front, n_v, rough), lobe(n_h, front, n_v, rough * 0.58), 0.28 + 0.2 * lips);
-    shine *= fresnel * front * lit * 2.2 * (1.0 - max(brow, cover));
-    float rim = 0.028 + 0.30 * fifth(1.0 - n_v);
-    vec3 sheen = mix(ground.rgb, sky.rgb, clamp(reflect(-to_eye, n).y * 0.5 + 0.5, 0.0, 1.0)) * rim * open * open;
-
-    vec3 mirrored = radiance.rgb * shine + sheen * (1.0 - cover);
-    colour = vec4(albedo * (radiance.rgb * diffuse + soft) + mirrored, 1.0);
+    normal = vec4(gl_FrontFacing ? n : -n, smoothstep(0.0, 1.0, v_cover));
+    paint = vec4(v_paint.xy, brow, v_paint.w);
+    distance_ = v_distance;
 }

@@ -7,9 +7,8 @@ float sides(float x) {
     return t * (2.0 - t);
 }
 
-// Opacity of a billboard as the light sees it, local in -1 to 1. The mip level is fixed: the light wants no single
-// strands, and every reader must see the same billboard.
+// Opacity of a billboard as the light sees it, local in -1 to 1.
 float light_opacity(vec2 local, float window, float window_width) {
     vec2 at = vec2(window + 0.5 * window_width * local.x, 0.5 + 0.5 * local.y);
-    return textureLod(strands, at, 3.0).r * sides(local.x);
+    return textureLod(strands, at, 0.0).r * sides(local.x);
 }

@@ -1,7 +1,6 @@
 #version 330
 #include "common/scene.glsl"
 #include "common/strands.glsl"
-uniform float level;  // of the mip-map pyramid
 uniform vec3 hair_colour;
 uniform float gloss;
 in vec2 v_at;
@@ -10,7 +9,7 @@ in vec4 v_gleam;
 out vec4 colour;
 
 void main() {
-    vec2 strand = textureLod(strands, v_at, level).rg;
+    vec2 strand = textureLod(strands, v_at, 0.0).rg;
     float alpha = strand.r * sides(v_body.w) * v_gleam.w;
 
     // Kajiya and Kay's highlight, moved along each strand by its own scales; a second, wider one has the hair's colour.

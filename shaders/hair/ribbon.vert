@@ -19,7 +19,7 @@ out vec2 v_at;
 out vec4 v_body;    // light that comes back from all sides of a strand; side of the ribbon
 out vec4 v_gleam;   // cosine of the highlight, its change with the tone of a strand, its strength; opacity
 
-const int sections = 7;
+const int sections = 5;
 const int texels = 2 * sections + 1;
 const float least_sine = 0.3;
 const float scales = 0.28;  // how far the scales tilt the darkest and the lightest strand apart

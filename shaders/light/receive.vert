@@ -1,24 +1,20 @@
 #version 330
 // The light that reaches each particle of a batch: past the objects, through the hair drawn so far, and through the
 // particles of its own batch that stand nearer to the light.
-#include "common/scene.glsl"
-#include "common/shadow.glsl"
 #include "common/strands.glsl"
 #include "common/particles.glsl"
 uniform sampler2D billboards;  // BILLBOARD_DTYPE of render/light_billboards.py, nearest to the light first
+uniform sampler2D reach;       // of each, past the objects
+uniform sampler2D light_map;
 uniform int first;
 uniform int rows;
 flat out vec4 v_light;
-
-// Particles may lie this far [m] under the surface, as hair roots do, without being in its shadow.
-const float root_bias = 0.018;
 
 void main() {
     int rank = gl_VertexID;
     vec4 here = record(billboards, rank, 3, 0);
     vec4 last = record(billboards, rank, 3, 2);
-    float size = float(textureSize(light_map, 0).x);
-    float lit = past_objects_at(vec3(here.xy / size, last.x - root_bias / shadow.y), 0.006);
+    float lit = record(reach, rank, 1, 0).r;
     float through = texelFetch(light_map, ivec2(here.xy), 0).r;
     vec2 pixel = floor(here.xy) + 0.5;
     for (int j = first; j < rank; ++j) {
@@ -28,8 +24,7 @@ void main() {
         vec2 local = vec2(off.x * a.w - off.y * a.z, dot(off, a.zw)) / b.xy;
         if (max(abs(local.x), abs(local.y)) < 1.0) {
             vec4 c = record(billboards, j, 3, 2);
-            float there = past_objects_at(vec3(a.xy / size, c.x - root_bias / shadow.y), 0.006);
-            through *= 1.0 - light_opacity(local, b.w, c.z) * b.z * there;
+            through *= 1.0 - light_opacity(local, b.w, c.z) * b.z * record(reach, j, 1, 0).r;
         }
     }
     v_light = vec4(lit * through, lit, 0.0, 0.0);

@@ -1,5 +1,5 @@
 #version 330
-// One triangle that covers the picture; no vertex buffer.
+// One triangle that covers the picture, at the far plane; no vertex buffer.
 void main() {
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
+    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
 }

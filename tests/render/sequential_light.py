@@ -17,17 +17,11 @@ def reduced(image: Floats, level: int) -> Floats:
     return image
 
 
-def bilinear(image: Floats, u: Floats, v: Floats) -> Floats:
-    """An image read as OpenGL reads it: repeating along u, clamped along v."""
+def nearest(image: Floats, u: Floats, v: Floats) -> Floats:
+    """An image read at the nearest texel, as OpenGL reads it: repeating along u, clamped along v."""
     rows, columns = image.shape
-    x, y = u * columns - 0.5, np.clip(v * rows - 0.5, 0, rows - 1)
-    left, low = np.floor(x).astype(int), np.floor(y).astype(int)
-    fx, fy = x - left, y - low
-    high, right = np.minimum(low + 1, rows - 1), (left + 1) % columns
-    left = left % columns
-    lower = image[low, left] * (1 - fx) + image[low, right] * fx
-    upper = image[high, left] * (1 - fx) + image[high, right] * fx
-    return lower * (1 - fy) + upper * fy
+    row = np.clip(np.floor(v * rows).astype(int), 0, rows - 1)
+    return image[row, np.floor(u * columns).astype(int) % columns]
 
 
 def sequential_light(billboards: NDArray[np.void], lit: Floats, strands: Floats, size: int) -> tuple[Floats, Floats]:
@@ -57,7 +51,7 @@ def _draw(light_map: Floats, board: Any, lit: float, strands: Floats) -> None:
     across = (dx * ay - dy * ax) / board["half_width"]
     along = (dx * ax + dy * ay) / board["half_length"]
     t = 1 - across**2
-    opacity = bilinear(strands, board["window"] + 0.5 * board["window_width"] * across, 0.5 + 0.5 * along)
+    opacity = nearest(strands, board["window"] + 0.5 * board["window_width"] * across, 0.5 + 0.5 * along)
     opacity = opacity * t * (2 - t) * board["opacity"] * lit
     inside = (np.abs(across) < 1) & (np.abs(along) < 1)
     light_map[low[1] : high[1], low[0] : high[0]] *= np.where(inside, 1 - opacity, 1.0)

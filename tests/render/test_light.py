@@ -13,6 +13,7 @@ from headstudio.lcp.model import HairModel
 from headstudio.render import hair_light
 from headstudio.render.light_billboards import LEAST_SINE, light_billboards, opacity_scale
 from headstudio.render.renderer import Renderer
+from headstudio.render.strand_levels import LIGHT_LEVEL
 from headstudio.render.strands import CurveBuilder
 from headstudio.render.view import light_view
 from headstudio.resources import asset
@@ -20,8 +21,6 @@ from headstudio.scene.settings import Camera, Look
 from headstudio.scene.stage import HairOnStage, Stage
 
 from .sequential_light import reduced, sequential_light
-
-LIGHT_LEVEL = 3  # the mip level that light_opacity of common/strands.glsl reads
 
 
 def received(renderer: Renderer, count: int) -> Floats:

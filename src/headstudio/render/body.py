@@ -12,8 +12,10 @@ from ..scene.settings import Look
 from .context import load_program, set_uniforms
 from .openings import Openings
 from .scene_block import linear
+from .screen import ScreenPasses
 from .skin_paint import coarse_faces, paint, scalp_cover, standing_out
 from .sky import hidden_from_sky
+from .targets import PictureTargets
 from .view import View
 
 # Details below this [m] are left out of the body that casts shadows.
@@ -29,6 +31,7 @@ class BodyPrograms:
         self.depth = load_program(context, "body/depth.vert", "body/depth.frag")
         self.skin = load_program(context, "body/skin.vert", "body/skin.frag")
         self.part = load_program(context, "body/part.vert", "body/part.frag")
+        self.screens = ScreenPasses(context, "light", room="body")
 
 
 class Body:
@@ -76,20 +79,51 @@ class Body:
         """The body into the shadow map."""
         self._shadow.render()
 
-    def draw(self, view: View, look: Look) -> None:
-        """The body into the framebuffer in use; texture 0 is the shadow map, 1 the light map, 2 the strands."""
-        colours = {
-            "skin_colour": tuple(linear(look.skin_colour)),
-            "hair_colour": tuple(linear(look.hair_colour)),
-            "iris_colour": tuple(linear(look.iris_colour)),
-        }
-        for program in (self._programs.skin, self._programs.part):
-            set_uniforms(program, shadow_map=0, light_map=1, strands=2, **colours)
+    def draw_surface(self, view: View) -> None:
+        """What the skin is like, into the framebuffer in use; texture 2 is the strands."""
+        set_uniforms(self._programs.skin, strands=2)
         # Half of the triangles face away, and their inside is only seen through an opening.
         if not self._openings.shown_to(view.eye):
             self._context.enable(moderngl.CULL_FACE)
         self._skin.render()
         self._context.disable(moderngl.CULL_FACE)
+
+    def light_surface(self, view: View, look: Look, targets: PictureTargets) -> None:
+        """The light that the skin sends to the eye, wherever the depth of the framebuffer in use shows that it is.
+
+        Triangles are only a few pixels large, and light worked out for each would be worked out several times over.
+        Texture 0 is the shadow map, 1 the light map.
+        """
+        for unit, texture in enumerate((targets.normal, targets.paint, targets.distance), start=3):
+            texture.use(unit)
+        width, height = targets.normal.size
+        self._context.depth_func = ">"
+        self._programs.screens.draw(
+            "light",
+            shadow_map=0,
+            light_map=1,
+            normals=3,
+            paint=4,
+            distances=5,
+            size=(float(width), float(height)),
+            forward=tuple(view.forward),
+            upward=tuple(view.up / view.focal),
+            sideward=tuple(view.right * width / height / view.focal),
+            skin_colour=tuple(linear(look.skin_colour)),
+            hair_colour=tuple(linear(look.hair_colour)),
+        )
+        self._context.depth_func = "<"
+
+    def draw_parts(self, look: Look) -> None:
+        """Eyes, teeth and lashes into the framebuffer in use; texture 0 is the shadow map, 1 the light map."""
+        set_uniforms(
+            self._programs.part,
+            shadow_map=0,
+            light_map=1,
+            skin_colour=tuple(linear(look.skin_colour)),
+            hair_colour=tuple(linear(look.hair_colour)),
+            iris_colour=tuple(linear(look.iris_colour)),
+        )
         for part, array in self._parts:
             self._draw_part(part, array)
 

@@ -8,10 +8,10 @@ from ..head.mesh import Floats
 from .strands import HairCurves
 from .view import View
 
-_LAYERS = (4, 7)
+_LAYERS = (3, 5)
 """With so many sections in front a particle begins to be left out, and is gone. Only every other section is counted, and a
-cell holds about one of every two particles that cross it: so nearly twice as many particles stand before what goes, each
-lets about 60 % of the light past, and what goes shone through by less than 2 %."""
+cell holds about two of every five particles that cross it: so more than twice as many particles stand before what goes,
+each lets about 60 % of the light past, and what goes shone through by less than 2 %."""
 
 
 def shown_through_hair(curves: HairCurves, view: View, cell: float) -> Floats:
@@ -26,10 +26,14 @@ def shown_through_hair(curves: HairCurves, view: View, cell: float) -> Floats:
     cells = np.floor(across / cell).astype(np.int64)
     cells -= cells.min(axis=(0, 1))
     key = (cells[..., 0] * (cells[..., 1].max() + 1) + cells[..., 1]).ravel()
-    nearest_first = np.lexsort((depth.ravel(), key))
+    # Cell by cell, nearest first: one sort of numbers whose whole part is the cell is faster than a sort by two keys.
+    behind = (depth - depth.min()) / (2 * max(np.ptp(depth), 1e-9))
+    nearest_first = np.argsort(key + behind.ravel())
     sorted_key = key[nearest_first]
-    rank = np.empty(count * sections, np.int64)
-    rank[nearest_first] = np.arange(len(key)) - np.searchsorted(sorted_key, sorted_key)
+    place = np.arange(len(key))
+    starts = np.concatenate([[True], sorted_key[1:] != sorted_key[:-1]])
+    rank = np.empty(len(key), np.int64)
+    rank[nearest_first] = place - np.maximum.accumulate(np.where(starts, place, 0))
     least = rank.reshape(count, sections).min(axis=1)
     return np.clip((_LAYERS[1] - least) / (_LAYERS[1] - _LAYERS[0]), 0.0, 1.0)
 

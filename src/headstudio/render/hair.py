@@ -5,12 +5,10 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from ..head.frame import HeadFrame
 from ..head.head import Head
 from ..lcp.model import HairModel
-from ..resources import asset
 from ..scene.settings import Look
 from ..scene.stage import HairOnStage
 from .context import load_program, set_uniforms
@@ -19,14 +17,13 @@ from .hair_light import HairLight, LightPrograms
 from .particle_texture import RecordTexture
 from .ribbons import CURVE_DTYPE, RIBBON_DTYPE, curve_texels, farthest_first, lay_out_ribbons, ribbon_narrowing
 from .scene_block import linear
+from .strand_levels import StrandLevels
 from .strand_texture import STRIP_WIDTH
 from .strands import SECTIONS, CurveBuilder, HairCurves, joined, openness
 from .targets import LightTargets
 from .undergrowth import Undergrowth
 from .view import View
 
-# Mip levels finer than one texel a pixel: the strands of neighbouring ribbons smooth each other.
-_CRISPNESS = 0.8
 _DRAWN_DTYPE = np.dtype([("ribbon", "i4"), ("shown", "f4")])
 
 
@@ -36,13 +33,7 @@ class HairPrograms:
     def __init__(self, context: moderngl.Context) -> None:
         self.light = LightPrograms(context)
         self.ribbon = load_program(context, "hair/ribbon.vert", "hair/ribbon.frag")
-        with Image.open(asset("textures/strands.png")) as image:
-            pixels = image.convert("RGB")
-        self.strands = context.texture(pixels.size, 3, pixels.tobytes(), alignment=1)
-        self.strands.build_mipmaps()
-        # Filtering is what costs most on a processor: between mip levels it would add half as much again.
-        self.strands.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        self.strands.repeat_y = False
+        self.strands = StrandLevels(context)
 
 
 class Hair:
@@ -94,14 +85,14 @@ class Hair:
         """Let the light through the hair: fills the light map and the light on every particle."""
         assert self.curves is not None
         if look.shadows:
-            self.light.shed(self.curves, light, look, maps, self._programs.strands)
+            self.light.shed(self.curves, light, look, maps, self._programs.strands.light)
         else:
             self.light.fill()
 
     def draw(self, view: View, look: Look, body_distance: moderngl.Texture) -> None:
         """The ribbons, farthest first (thesis 3.4, lines 17 to 21), into the framebuffer in use.
 
-        ``body_distance``: how far away the body is at every pixel [m].
+        Texture 2 is the strands. ``body_distance``: how far away the body is at every pixel [m].
         """
         assert self.curves is not None
         half_width = self._half_width(look)
@@ -113,7 +104,6 @@ class Hair:
         drawn["ribbon"], drawn["shown"] = order[shown > 0], shown[shown > 0]
         self._drawn.orphan()
         self._drawn.write(drawn.tobytes())
-        self._programs.strands.use(2)
         body_distance.use(3)
         self.light.softened.use(4)
         self._curve_texture.texture.use(5)
@@ -121,7 +111,6 @@ class Hair:
         set_uniforms(
             self._programs.ribbon,
             strands=2,
-            level=self._texture_level(view, body_distance.height),
             body_distance=3,
             light=4,
             curves=5,
@@ -135,17 +124,6 @@ class Hair:
             gloss=look.gloss,
         )
         self._ribbons.render(moderngl.TRIANGLE_STRIP, instances=len(drawn))
-
-    def _texture_level(self, view: View, picture_height: int) -> float:
-        """The mip level at which a texel is about as wide as a pixel, in the middle of the hair.
-
-        All strands are equally thick and about equally far away, and asking once is faster than at every pixel.
-        """
-        assert self.curves is not None
-        distance = max(float(np.median(view.depth(self.curves.position))), view.near)
-        pixels_per_metre = 0.5 * picture_height * view.focal / distance
-        texels_per_metre = self._programs.strands.width / STRIP_WIDTH
-        return float(max(np.log2(texels_per_metre / pixels_per_metre) - _CRISPNESS, 0.0))
 
     def _half_width(self, look: Look) -> float:
         return 0.5 * look.billboard_width * self._model.spacing

@@ -24,6 +24,7 @@ class LightPrograms:
     """The shaders of the light pass."""
 
     def __init__(self, context: moderngl.Context) -> None:
+        self.reach = load_program(context, "light/reach.vert", "light/particle.frag")
         self.receive = load_program(context, "light/receive.vert", "light/particle.frag")
         self.splat = load_program(context, "light/splat.vert", "light/splat.frag")
         self.soften = load_program(context, "light/soften.vert", "light/particle.frag")
@@ -48,12 +49,14 @@ class HairLight:
         self._neighbours.write(neighbours)
         self._slots = dtype.itemsize // 16
         size = (ROW, -(-model.count // ROW))
-        self.received, self.softened = (context.texture(size, 4, dtype="f4") for _ in range(2))
-        for texture in (self.received, self.softened):
+        self._reach, self.received, self.softened = (context.texture(size, 4, dtype="f4") for _ in range(3))
+        for texture in (self._reach, self.received, self.softened):
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self._reach_target = context.framebuffer([self._reach])
         self._received_target = context.framebuffer([self.received])
         self._softened_target = context.framebuffer([self.softened])
         corners = np.array([[-1, -1], [1, -1], [-1, 1], [1, 1]], np.float32)
+        self._past_objects = context.vertex_array(programs.reach, [])
         self._receive = context.vertex_array(programs.receive, [])
         self._splat = context.vertex_array(programs.splat, [(context.buffer(corners.tobytes()), "2f", "corner")])
         self._soften = context.vertex_array(programs.soften, [])
@@ -71,10 +74,13 @@ class HairLight:
         maps.map.use(1)
         strands.use(2)
         self._billboards.texture.use(3)
-        self.received.use(4)
-        rows = self.received.height
-        set_uniforms(self._programs.receive, shadow_map=0, light_map=1, strands=2, billboards=3, rows=rows)
-        set_uniforms(self._programs.splat, strands=2, billboards=3, received=4, map_size=float(maps.size))
+        self._reach.use(4)
+        rows, size = self.received.height, float(maps.size)
+        with self._context.scope(self._reach_target, moderngl.PROGRAM_POINT_SIZE):
+            set_uniforms(self._programs.reach, shadow_map=0, billboards=3, rows=rows, map_size=size)
+            self._past_objects.render(moderngl.POINTS, vertices=count)
+        set_uniforms(self._programs.receive, light_map=1, strands=2, billboards=3, reach=4, rows=rows)
+        set_uniforms(self._programs.splat, strands=2, billboards=3, reach=4, map_size=size)
         for first in range(0, count, BATCH):
             in_batch = min(BATCH, count - first)
             with self._context.scope(self._received_target, moderngl.PROGRAM_POINT_SIZE):
@@ -85,6 +91,7 @@ class HairLight:
                 set_uniforms(self._programs.splat, first=first)
                 self._splat.render(moderngl.TRIANGLE_STRIP, instances=in_batch)
         self._neighbours.texture.use(3)
+        self.received.use(4)
         with self._context.scope(self._softened_target, moderngl.PROGRAM_POINT_SIZE):
             set_uniforms(self._programs.soften, neighbours=3, received=4, rows=rows, slots=self._slots)
             self._soften.render(moderngl.POINTS, vertices=count)

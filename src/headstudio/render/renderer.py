@@ -34,7 +34,7 @@ class Renderer:
         self._hair_programs = HairPrograms(context)
         self._strand_programs = StrandPrograms(context)
         self._overlays = OverlayPass(context)
-        self._screens = ScreenPasses(context, "distance", "reduce", "develop")
+        self._screens = ScreenPasses(context, "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | None = None
         self._hair: Hair | None = None
@@ -102,7 +102,7 @@ class Renderer:
                 strands.shed_light(light, stage.frame, maps, look.shadow_size)
         maps.depth.use(0)
         maps.map.use(1)
-        self._hair_programs.strands.use(2)
+        self._hair_programs.strands.seen(view, float(view.depth(stage.frame.translation)), targets.scene.height).use(2)
         with timer.stage("body"):
             self._draw_body(body if look.show_head else None, view, look, targets)
         if hair is not None:
@@ -159,17 +159,22 @@ class Renderer:
             hair.shed_light(light, look, maps)
 
     def _draw_body(self, body: Body | None, view: View, look: Look, targets: PictureTargets) -> None:
+        with self.context.scope(targets.surface, moderngl.DEPTH_TEST):
+            targets.surface.clear(view.far, depth=1.0)
+            if body is not None:
+                body.draw_surface(view)
+        targets.scene.depth_mask = False
+        targets.scene.clear(0.0, 0.0, 0.0, 0.0)
+        if body is None:
+            return
+        with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
+            body.light_surface(view, look, targets)
         with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             targets.scene.depth_mask = True
-            targets.scene.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
-            if body is not None:
-                body.draw(view, look)
+            body.draw_parts(look)
 
     def _draw_hair(self, hair: Hair, view: View, look: Look, targets: PictureTargets) -> None:
-        with self.context.scope(targets.distance_target, moderngl.NOTHING):
-            targets.depth.use(3)
-            self._screens.draw("distance", depth=3)
         with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
             targets.scene.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA

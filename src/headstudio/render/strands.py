@@ -18,7 +18,7 @@ from ..head.mesh import Floats, Ints
 from ..lcp.model import HairModel
 from ..scene.stage import HairOnStage
 
-SECTIONS = 7
+SECTIONS = 5
 """Places on the curve: as many towards the root as towards the tip, and the particle itself."""
 
 _MIDDLE = SECTIONS // 2

@@ -15,9 +15,10 @@ Size = tuple[int, int]
 class PictureTargets:
     """Linear colour (half floats, premultiplied alpha) with depth, and what is shown (8 bits, sRGB).
 
-    ``scene`` is ``supersampling`` times as large as ``size``. ``distance`` holds how far away the body is [m]: the hair
-    reads it while the depth buffer is in use. ``reduced`` is the colour at the size of the picture: the same texture, or
-    the mean of it when there is supersampling.
+    ``scene`` is ``supersampling`` times as large as ``size``, and so is ``surface``, which holds what the skin is like at
+    every pixel before any light falls on it: its normal and how densely hair grows on it, its paint, and its distance
+    from the eye [m], which the hair reads too while the depth buffer is in use. They share their depth. ``reduced`` is the
+    colour at the size of the picture: the same texture, or the mean of it when there is supersampling.
     """
 
     size: Size
@@ -27,7 +28,9 @@ class PictureTargets:
     depth: moderngl.Texture
     reduced: moderngl.Texture
     reduced_target: moderngl.Framebuffer
-    distance_target: moderngl.Framebuffer
+    surface: moderngl.Framebuffer
+    normal: moderngl.Texture
+    paint: moderngl.Texture
     distance: moderngl.Texture
     shown: moderngl.Framebuffer
     picture: moderngl.Texture
@@ -55,6 +58,8 @@ def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -
     depth.compare_func = ""
     depth.filter = (moderngl.NEAREST, moderngl.NEAREST)
     reduced = colour if supersampling == 1 else _texture(context, size, 4, "f2", moderngl.NEAREST)
+    normal = _texture(context, fine, 4, "f2", moderngl.NEAREST)
+    paint = _texture(context, fine, 4, "f1", moderngl.NEAREST)
     distance = _texture(context, fine, 1, "f4", moderngl.NEAREST)
     picture = _texture(context, size, 4, "f1", moderngl.LINEAR)
     return PictureTargets(
@@ -65,7 +70,9 @@ def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -
         depth=depth,
         reduced=reduced,
         reduced_target=context.framebuffer([reduced]),
-        distance_target=context.framebuffer([distance]),
+        surface=context.framebuffer([normal, paint, distance], depth),
+        normal=normal,
+        paint=paint,
         distance=distance,
         shown=context.framebuffer([picture]),
         picture=picture,
