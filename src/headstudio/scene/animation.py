@@ -1,4 +1,5 @@
-"""One head with everything that is on it, over time: loose particles that swing, or strands that keep their style."""
+"""One head with everything that is on it, over time: loose particles that swing or strands that keep their style, and a
+face that may live."""
 
 from __future__ import annotations
 
@@ -6,6 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from ..head.frame import HeadFrame
+from ..wrinkle.face_settings import FaceSettings
+from ..wrinkle.living_skin import LivingSkin
 from .builder import Builder
 from .document import Document
 from .measures import head_figures
@@ -18,7 +21,7 @@ class Animation:
     """What a document shows, from rest on.
 
     document: as it is shown now. head, scalp: what everything sits on. simulation: the particles in motion, or None.
-    hairdo: the strands in their style, or None.
+    hairdo: the strands in their style, or None. skin: of a face that lives, or None.
     """
 
     def __init__(self, builder: Builder, document: Document, strands: int | None = None) -> None:
@@ -29,6 +32,8 @@ class Animation:
         as_strands = document.look.hair_as == "strands"
         self.simulation = None if as_strands else Simulation(builder.build(document), document)
         self.hairdo = builder.hairdo(document, strands) if as_strands else None
+        self.skin = builder.skin(document) if document.look.skin_as == "living" else None
+        self._shown: tuple[FaceSettings, LivingSkin] | None = None
         self._time = 0.0
         self._frame = HeadFrame()
 
@@ -75,9 +80,17 @@ class Animation:
 
     def stage(self) -> Stage:
         """What there is to see now."""
-        if self.simulation is not None:
-            return self.simulation.stage()
-        return replace(Stage(self.head, self._frame), strands=self.hairdo.strands if self.hairdo else None)
+        stage = self.simulation.stage() if self.simulation else Stage(self.head, self._frame)
+        return replace(stage, strands=self.hairdo.strands if self.hairdo else None, skin=self._living_skin())
+
+    def _living_skin(self) -> LivingSkin | None:
+        """The face as it is now; the same object while nothing in it moves."""
+        if self.skin is None:
+            return None
+        face = self.document.face.at(self.time)
+        if self._shown is None or self._shown[0] != face:
+            self._shown = (face, self.skin.at(face))
+        return self._shown[1]
 
 
 def needs(document: Document) -> tuple[Any, ...]:
@@ -87,4 +100,5 @@ def needs(document: Document) -> tuple[Any, ...]:
         hair: tuple[Any, ...] = (document.wisp, document.colour, document.styling, look.strands_shown)
     else:
         hair = (document.hair,)
-    return (document.head, document.scalp, look.hair_as, *hair)
+    skin = (document.wrinkle, document.fine) if look.skin_as == "living" else ()
+    return (document.head, document.scalp, look.hair_as, *hair, look.skin_as, *skin)

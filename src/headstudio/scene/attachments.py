@@ -23,6 +23,8 @@ from ..wisp import styling_codec
 from ..wisp.curves import checked_curve
 from ..wisp.settings import CurvePoints, Path3D
 from ..wrinkle.face_settings import SLIDERS
+from ..wrinkle.fine_settings import DirectionVector
+from ..wrinkle.furrow import decode_furrows, encode_furrows
 from ..wrinkle.performance import Performance, check_performance, keyframe
 
 Curves = tuple[tuple[tuple[float, float, float], ...], ...]
@@ -134,6 +136,23 @@ def decode_performance(content: bytes) -> Performance:
     return check_performance(keys, SLIDERS)
 
 
+def encode_vectors(vectors: tuple[DirectionVector, ...]) -> bytes:
+    """Direction vectors as JSON, a line each: [field, u, v, du, dv]."""
+    lines = ",\n".join(" " + json.dumps(list(vector), allow_nan=False) for vector in vectors)
+    return f"[\n{lines}\n]\n".encode()
+
+
+def decode_vectors(content: bytes) -> tuple[DirectionVector, ...]:
+    """Direction vectors of fine wrinkles. Raises ValueError."""
+    try:
+        rows = tuple(tuple(float(number) for number in row) for row in json.loads(content))
+    except (TypeError, ValueError, OverflowError, RecursionError):
+        raise ValueError("is no list of direction vectors") from None
+    if any(len(row) != 5 or row[0] not in (0, 1) or not all(map(math.isfinite, row)) for row in rows):
+        raise ValueError("does not hold direction vectors: field 0 or 1, u, v, du, dv")
+    return tuple(DirectionVector(int(field), *numbers) for field, *numbers in rows)
+
+
 def _styling(field: str, kinds: styling_codec.Kinds) -> Attachment:
     return Attachment(
         f"styling.{field}",
@@ -154,7 +173,10 @@ ATTACHMENTS = (
     Attachment("wisp.painted_lengths", "wisp/lengths.png", encode_gray, decode_gray),
     Attachment("wisp.painted_protrusion", "wisp/protrusion.png", encode_gray, decode_gray),
     Attachment("face.painted_tissue", "face/tissue.png", encode_gray, decode_gray),
+    Attachment("wrinkle.furrows", "wrinkle/furrows.json", encode_furrows, decode_furrows),
     Attachment("face.performance", "face/performance.json", encode_performance, decode_performance),
+    Attachment("fine.vectors", "fine/directions.json", encode_vectors, decode_vectors),
+    Attachment("fine.painted_strength", "fine/strength.png", encode_gray, decode_gray),
     _styling("strokes", styling_codec.STROKES),
     _styling("operations", styling_codec.OPERATIONS),
     _styling("cuts", styling_codec.CUTS),

@@ -20,6 +20,12 @@ from ..wisp.facial_hair import FacialPatch, facial_patches
 from ..wisp.hairdo import Hairdo, style_hair
 from ..wisp.joining import join_strands
 from ..wisp.surroundings import Surroundings
+from ..wrinkle.face import Face
+from ..wrinkle.face_creases import face_bed, face_creases
+from ..wrinkle.fine_guides import face_guides
+from ..wrinkle.fine_wrinkles import FineWrinkles, grow_fine_wrinkles
+from ..wrinkle.living_skin import Skin
+from ..wrinkle.texture_map import TextureMap
 from .document import Document
 from .settings import HeadSettings
 
@@ -104,6 +110,32 @@ class Builder:
             return grow_scalp(head, ScalpSettings(curves=REGIONS[region](head), whorl_u=0.5, whorl_v=1.0))
 
         return self._part(f"{region} skin", head, grow)
+
+    def skin(self, document: Document) -> Skin:
+        """The skin of the head of ``document`` with its furrows and fine wrinkles, ready for any expression.
+
+        Raises HeadError.
+        """
+        head = self.head(document.head)
+        wrinkle = document.wrinkle
+        furrows = wrinkle.furrow_set()
+        face = self._part("face", head, lambda: Face(head))
+        bed = self._part(
+            "furrows", (head, furrows, wrinkle.fineness), lambda: face_bed(head, furrows, wrinkle.fineness)
+        )
+        creases = self._part("creases", (bed, wrinkle), lambda: face_creases(head, wrinkle, bed))
+        fine = self._fine_wrinkles(document, bed.layout.texture_map)
+        return self._part("skin", (face, bed, creases, fine), lambda: Skin(face, bed, creases, fine))
+
+    def _fine_wrinkles(self, document: Document, texture_map: TextureMap) -> FineWrinkles | None:
+        if not document.fine.on:
+            return None
+        head = self.head(document.head)
+
+        def grow() -> FineWrinkles:
+            return grow_fine_wrinkles(texture_map, document.fine, face_guides(texture_map, head.landmarks))
+
+        return self._part("fine wrinkles", (texture_map, document.fine), grow)
 
     def _part(self, kind: str, wanted: Any, make: Callable[[], PartT]) -> PartT:
         if kind not in self._made or self._made[kind][0] != wanted:

@@ -12,6 +12,8 @@ from ..lcp.settings import DynamicsSettings, HairSettings, WindSettings
 from ..wisp.settings import FacialHairSettings, HairColourSettings, WispSettings
 from ..wisp.styling_settings import StylingSettings
 from ..wrinkle.face_settings import FaceSettings
+from ..wrinkle.fine_settings import FineSettings
+from ..wrinkle.settings import WrinkleSettings
 from .settings import Camera, HeadSettings, Look, MotionSettings
 
 
@@ -29,6 +31,8 @@ class Document:
     beard: FacialHairSettings = field(default_factory=FacialHairSettings)
     colour: HairColourSettings = field(default_factory=HairColourSettings)
     face: FaceSettings = field(default_factory=FaceSettings)
+    wrinkle: WrinkleSettings = field(default_factory=WrinkleSettings)
+    fine: FineSettings = field(default_factory=FineSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)
     look: Look = field(default_factory=Look)
     camera: Camera = field(default_factory=Camera)

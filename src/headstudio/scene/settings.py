@@ -9,6 +9,7 @@ from ..params import choice, colour, integer, number, switch, text
 
 MOTIONS = ("rest", "shake", "nod", "turn", "tilt", "split", "wind")
 HAIR_AS = ("particles", "strands")
+SKIN_AS = ("resting", "living")
 STRAND_MODELS = ("fibre", "kajiya-kay")
 
 
@@ -99,6 +100,12 @@ class Look:
         "Hair as",
         HAIR_AS,
         "What hair is made of: loose particles that can be shaken, or the strands of a hairstyle made of wisps.",
+    )
+    skin_as: str = choice(
+        "resting",
+        "Skin",
+        SKIN_AS,
+        "Resting: the head as it is. Living: a face with expressions, wrinkles and pores.",
     )
     strand_model: str = choice(
         "fibre", "Strand shading", STRAND_MODELS, "Marschner's lobes of a hair fibre, or Kajiya and Kay's.", live=True

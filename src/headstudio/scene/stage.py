@@ -11,6 +11,7 @@ from ..head.head import Head
 from ..head.mesh import Floats
 from ..lcp.model import HairModel
 from ..wisp.strands import Strands
+from ..wrinkle.living_skin import LivingSkin
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,10 +38,14 @@ class Overlays:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One instant. Objects are compared by identity: what is the same object as in the last frame is not sent again."""
+    """One instant. Objects are compared by identity: what is the same object as in the last frame is not sent again.
+
+    head: at rest. skin: in the place of the head's own skin and parts, where the face lives.
+    """
 
     head: Head
     frame: HeadFrame = field(default_factory=HeadFrame)
     hair: HairOnStage | None = None
     overlays: Overlays = field(default_factory=Overlays)
     strands: Strands | None = None
+    skin: LivingSkin | None = None

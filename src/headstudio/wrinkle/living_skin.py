@@ -1,0 +1,126 @@
+"""The skin of a head in any expression: the face moves, large wrinkles form, fine ones rise and fall.
+
+Bando's thesis, chapter 2, in its order: muscles and tissue (2.5.2), shrinkage and furrows (2.5.3), fine-scale wrinkles
+(2.6.4).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from ..head.head import Head, Part
+from ..head.mesh import Floats, Ints
+from .creases import Creases, WrinkledSkin
+from .face import Face
+from .face_settings import FaceSettings
+from .fine_wrinkles import FineWrinkles
+from .furrow_bed import FurrowBed
+from .tissue_thickness import painted_thickness, thickness_of
+
+
+@dataclass(frozen=True, eq=False)
+class SkinSurface:
+    """What stays the same in every expression of a skin.
+
+    head: at rest. bed: the skin refined around its furrows, N vertices, M triangles. fine: its fine wrinkles, or None.
+    """
+
+    head: Head
+    bed: FurrowBed
+    fine: FineWrinkles | None
+
+    @property
+    def faces(self) -> Ints:
+        """Triangles of the refined skin, (M, 3)."""
+        return self.bed.refined.faces
+
+    @cached_property
+    def interpolation(self) -> sparse.csr_array:
+        """The matrix, (N, n), from values at the head's vertices to values at all vertices of the refined skin."""
+        return self.bed.refined.interpolation(np.arange(len(self.bed.refined.home)))
+
+    def spread(self, values: Floats) -> Floats:
+        """Values at the head's vertices, (n,) or (n, d), at all vertices of the refined skin."""
+        spread: Floats = self.interpolation @ values
+        return spread
+
+    @cached_property
+    def rest(self) -> Floats:
+        """Every vertex of the refined skin on the head at rest [m], (N, 3)."""
+        return self.spread(self.head.skin.vertices)
+
+    @cached_property
+    def uv(self) -> Floats:
+        """Texture coordinates of every vertex of the refined skin, (N, 2); zero where it is not mapped."""
+        layout = self.bed.layout
+        whole = np.zeros((len(layout.skin.vertices), 2))
+        whole[layout.part.vertices] = layout.texture_map.uv
+        return self.spread(whole)
+
+    @cached_property
+    def mapped(self) -> Floats:
+        """How far every vertex of the refined skin lies inside the mapped part, 0 at its border to 1, (N,)."""
+        layout = self.bed.layout
+        inside = np.zeros(len(layout.skin.vertices))
+        inside[layout.part.vertices] = 1.0
+        border = np.unique(layout.skin.faces[~layout.mapped])
+        inside[border] = 0.0
+        return self.spread(inside)
+
+
+@dataclass(frozen=True, eq=False)
+class LivingSkin:
+    """A skin at one instant, head frame.
+
+    surface: what it has in common with every other instant. skin: positions, normals and displacement of the refined
+    skin. parts: of the head, moved; one that rests is the head's own object. amplitudes: of both fine fields at the
+    vertices of the refined skin, (N, 2). posed: the head's own vertices before they wrinkle [m], (n, 3).
+    """
+
+    surface: SkinSurface
+    skin: WrinkledSkin
+    parts: tuple[Part, ...]
+    amplitudes: Floats
+    posed: Floats
+    face: Face
+
+    @cached_property
+    def expansion(self) -> Floats:
+        """How much larger than at rest the refined skin is around each vertex, 1 at rest, (N,)."""
+        return self.surface.spread(self.face.expansion(self.posed))
+
+
+class Skin:
+    """One head's skin, ready for any expression."""
+
+    def __init__(self, face: Face, bed: FurrowBed, creases: Creases, fine: FineWrinkles | None) -> None:
+        self.face = face
+        self.creases = creases
+        self.surface = SkinSurface(face.head, bed, fine)
+        self._thickness: tuple[object, Floats] | None = None
+
+    def at(self, settings: FaceSettings) -> LivingSkin:
+        """The skin with the face as its sliders are set."""
+        pose = self.face.pose(settings, self._tissue(settings))
+        skin = self.creases.displaced(pose.positions)
+        part = self.surface.bed.layout.part.vertices
+        amplitudes = np.ones((len(pose.positions), 2))
+        if self.surface.fine is not None:
+            amplitudes[part] = self.surface.fine.amplitudes(pose.positions[part])
+        spread = self.surface.spread(amplitudes)
+        return LivingSkin(self.surface, skin, pose.parts, spread, pose.positions, self.face)
+
+    def _tissue(self, settings: FaceSettings) -> Floats:
+        """Thickness of the tissue under every vertex at rest [m], (n,); found again only when it changes."""
+        wanted = (settings.tissue, settings.painted_tissue)
+        if self._thickness is None or self._thickness[0] != wanted:
+            thickness = thickness_of(self.face.head, settings.tissue)
+            if settings.painted_tissue is not None:
+                layout = self.surface.bed.layout
+                thickness[layout.part.vertices] = painted_thickness(settings.painted_tissue, layout.texture_map)
+            self._thickness = (wanted, thickness)
+        return self._thickness[1]
