@@ -78,7 +78,7 @@ def test_a_selection_may_be_written_as_its_expression():
     ],
 )
 def test_bad_content_is_one_line(content):
-    with pytest.raises(ValueError, match="[a-z]") as error:
+    with pytest.raises(ValueError, match=r"[a-z]") as error:
         codec.decode(content, codec.OPERATIONS)
     assert "\n" not in str(error.value)
 

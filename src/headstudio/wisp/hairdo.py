@@ -11,8 +11,10 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 from ..head.scalp import Scalp
+from .adornment import Adornment, adorn
 from .colour import strand_colours
 from .curves import LengthDistribution
+from .cutting import Blade, cut_strands
 from .deform import DeformReport, deform
 from .follicles import scatter_strands, spread_wisps
 from .maps import density_map
@@ -38,13 +40,14 @@ class Hairdo:
     """A finished hairstyle.
 
     strands: what is drawn and exported. outlines: of the wisps, as they lie. controls: control points of the master
-    strands [m], (W, n, 3). report: what the deformation solver met.
+    strands [m], (W, n, 3). report: what the deformation solver met. adornments: what is worn in the hair.
     """
 
     strands: Strands
     outlines: Outlines
     controls: Singles
     report: DeformReport
+    adornments: tuple[Adornment, ...]
 
 
 def style_hair(
@@ -75,17 +78,23 @@ def style_hair(
     count = wisp.strands if strands is None else min(strands, wisp.strands)
     roots, owner = scatter_strands(regions, count, wisp.seed)
     masters = Masters(controls, details.per_segment, outlines.radii.astype(np.float32), lengths / outlines.segment)
-    points = _grow(masters, roots, owner, wisp, surroundings)
+    uv = scalp.locate(rest.roots)
+    blades = [Blade.of(cut, surroundings.proportions, uv) for cut in styling.cuts]
+    points = _grow(masters, roots, owner, wisp, surroundings, blades)
+
+    worn = adorn(styling, surroundings, float(rest.counts.max(initial=0) * rest.segment))
 
     announce("colour")
     colours = strand_colours(colour, owner, regions.count, wisp.points)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
     radius = np.broadcast_to(shaft, points.shape[:2])
     made = Strands.of_equal_count(points, radius, colours, owner.astype(np.int32))
-    return Hairdo(replace(made, stands_for=wisp.strands / count), outlines, controls, report)
+    return Hairdo(replace(made, stands_for=wisp.strands / count), outlines, controls, report, worn)
 
 
-def _grow(masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings, surroundings: Surroundings) -> Singles:
+def _grow(
+    masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings, surroundings: Surroundings, blades: list[Blade]
+) -> Singles:
     """Points of all member strands outside the head [m], (S, points, 3): each block on whichever processor is free."""
     distribution = LengthDistribution.of(wisp)
     lengths = distribution.sample(np.random.default_rng([wisp.seed, 4]).random(len(owner)))
@@ -99,7 +108,8 @@ def _grow(masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings, surr
         even = _even_numbers([wisp.seed, 5, block], len(own))
         offsets = displacements(masters.radii[own].T, first, wisp.fuzziness, even)
         grown = member_points(masters, cuts, own, offsets, lengths[here])
-        points[here] = surroundings.keep_outside(grown.reshape(-1, 3), _CLEARANCE).reshape(grown.shape)
+        outside = surroundings.keep_outside(grown.reshape(-1, 3), _CLEARANCE).reshape(grown.shape)
+        points[here] = cut_strands(outside, own, blades)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(grow, range(-(-len(owner) // _BLOCK))))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -133,10 +134,13 @@ def _close_face(distances: Floats, grid: Grid, proportions: Proportions) -> None
     start = np.maximum(np.floor((low - grid.origin) / grid.spacing).astype(int), 0)
     end = np.ceil((high - grid.origin) / grid.spacing).astype(int) + 1
     face = tuple(slice(a, b) for a, b in zip(start, end))
-    grown = distances[face] <= _FOLD
+    # Looked at with what lies around: at the border of the face the nearest open place may be beyond it.
+    rim = np.minimum(start, math.ceil(2 * _FOLD / grid.spacing))
+    wide = tuple(slice(a - r, b + math.ceil(2 * _FOLD / grid.spacing)) for a, b, r in zip(start, end, rim))
+    inner = tuple(slice(r, r + n) for r, n in zip(rim, distances[face].shape))
     # Half a voxel less, so that an open and even surface stays where it is.
-    closed = _FOLD - (ndimage.distance_transform_edt(grown) - 0.5) * grid.spacing
-    folds = grown & (closed < distances[face] - grid.spacing)
+    closed = _FOLD - (ndimage.distance_transform_edt(distances[wide] <= _FOLD) - 0.5)[inner] * grid.spacing
+    folds = (distances[face] <= _FOLD) & (closed < distances[face] - grid.spacing)
     distances[face][folds] = closed[folds]
 
 
