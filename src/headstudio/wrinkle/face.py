@@ -78,15 +78,19 @@ class Face:
             for side in SIDES
             if (strength := settings.strength(name, side)) > 0
         }
+        if not strengths and settings.jaw_open == 0:
+            return FacePose(self._rest, self.head.parts)
         drive = self._drive(strengths, settings.jaw_open)
-        positions = self._rest + (self._fields @ self._activity(strengths, self._share_of_units(settings.driver))).reshape(-1, 3)
+        positions = self._rest + (
+            self._fields @ self._activity(strengths, self._share_of_units(settings.driver))
+        ).reshape(-1, 3)
         if drive.jaw:
             jawed = self._jawed
             positions[jawed] = self._jaw.opened(jawed, positions[jawed], drive.jaw)
         for side, lids in self._lids.items():
             turn = lids.turns(drive.upper[side], drive.lower[side])
             positions[lids.vertices] = lids.turned(positions[lids.vertices], turn)
-        if thickness is not None and settings.tissue_lift > 0 and (strengths or drive.jaw):
+        if thickness is not None and settings.tissue_lift > 0:
             # The sculptors of the units have put the tissue in already.
             lift = settings.tissue_lift * (1.0 - self._share_of_units(settings.driver))
             positions = self._tissue.lifted(positions, lift * thickness)
@@ -101,6 +105,12 @@ class Face:
     def _share_of_units(self, driver: str) -> float:
         """How much of an expression is left to units, 0 to 1."""
         return {"muscles": 0.0, "units": 1.0, "both": 0.5}[driver] if self.has_units else 0.0
+
+    def expansion(self, positions: Floats) -> Floats:
+        """How much larger than at rest the skin is around each vertex, (n,), at ``positions`` [m], (n, 3)."""
+        expansion = np.ones(len(self._rest))
+        expansion[self._tissue.vertices] = self._tissue.expansion(positions)
+        return expansion
 
     def _activity(self, strengths: Mapping[tuple[str, str], float], by_units: float) -> Floats:
         """How strongly every field acts, (columns,)."""

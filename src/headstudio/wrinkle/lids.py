@@ -17,6 +17,8 @@ from ..head.mesh import Floats, Ints, TriangleMesh
 
 # Lids turn as one up to this distance, and what is farther than the second rests.
 _THICK = (1.3, 2.0)
+# Before the middle of the ball lids turn, fully so from this distance on, in its radii; behind it skin rests.
+_FRONT = 0.3
 # How far beyond its margin a lid takes skin along [rad], the upper and the lower one.
 _FOLLOWING = np.radians([42.0, 34.0])
 # Where closed lids meet: this part of the opening above the lower one.
@@ -88,13 +90,13 @@ def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:
     away = skin.vertices - eye.centre
     distance = np.linalg.norm(away, axis=1)
     ahead = away @ forward
-    near = np.nonzero((distance < _THICK[1] * eye.radius) & (ahead > -0.3 * eye.radius))[0]
+    near = np.nonzero(distance < _THICK[1] * eye.radius)[0]
     away, distance, ahead = away[near], distance[near], ahead[near]
     column = away @ left / np.maximum(distance, 1e-9)
     angle = np.arctan2(away @ up, ahead)
     top, bottom = np.interp(column, _COLUMNS, upper), np.interp(column, _COLUMNS, lower)
     meeting = bottom + _MEETING * (top - bottom)
-    thick = _ramp((_THICK[1] - distance / eye.radius) / (_THICK[1] - _THICK[0]))
+    thick = _ramp((_THICK[1] - distance / eye.radius) / (_THICK[1] - _THICK[0])) * _ramp(ahead / eye.radius / _FRONT)
     above = thick * _ramp(1.0 - (angle - top) / _FOLLOWING[0])
     below = thick * _ramp(1.0 - (bottom - angle) / _FOLLOWING[1])
     # A point in the opening itself (a caruncle, the floor of a slit) goes with the lid that it is nearer to.

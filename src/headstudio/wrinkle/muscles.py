@@ -118,4 +118,5 @@ class SphincterMuscle:
 
 def fading(distance: Floats, start: float, end: float) -> Floats:
     """1 up to ``start``, then a quarter of a cosine down to 0 at ``end``, shape (n,): the radial law of Waters 1987."""
-    return np.cos(0.5 * np.pi * np.clip((distance - start) / (end - start), 0.0, 1.0))
+    faded = np.cos(0.5 * np.pi * np.clip((distance - start) / (end - start), 0.0, 1.0))
+    return np.where(distance < end, faded, 0.0)

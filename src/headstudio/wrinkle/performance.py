@@ -58,5 +58,8 @@ def weights_at(performance: Performance, time: float) -> dict[str, float]:
         values = table[0]
     else:
         times = np.array([key.time for key in performance])
-        values = PchipInterpolator(times, table)(np.clip(time, times[0], times[-1]))
+        # Held before and after, so that a motion starts and ends at rest.
+        held_times = np.concatenate([[times[0] - 1.0], times, [times[-1] + 1.0]])
+        held = PchipInterpolator(held_times, np.concatenate([table[:1], table, table[-1:]]))
+        values = held(np.clip(time, times[0], times[-1]))
     return {name: float(value) for name, value in zip(names, np.clip(values, 0.0, 1.0))}

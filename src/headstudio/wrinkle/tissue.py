@@ -14,7 +14,7 @@ SPREAD = 0.010
 # A triangle counts as pressed together or drawn apart by no more than this: below, volume would ask for spikes.
 _EXPANSION = (0.25, 4.0)
 # Nodes that a vertex takes the mean of. Two sides of a thin fold are as good as twice this many spreads apart.
-_NODES = 10
+_NODES = 14
 _FACING = 2.0
 
 
@@ -87,15 +87,18 @@ def _evening(
     to the cheek, and is none of it.
     """
     places = np.concatenate([points, _FACING * spread * normals], axis=1)
-    cells = np.floor(places / spread).astype(np.int64)
+    # Rounded and not cut off, so that both halves of a face have the same nodes.
+    cells = np.rint(places / spread).astype(np.int64)
     _, node = np.unique(cells, axis=0, return_inverse=True)
     node = node.ravel()
     count, mass = int(node.max()) + 1, np.maximum(areas, 1e-15)
     total = np.bincount(node, mass)
     to_nodes = sparse.csr_array((mass / total[node], (node, np.arange(len(node)))), shape=(count, len(node)))
     distance, near = cKDTree(to_nodes @ places).query(places, k=min(_NODES, count))
-    weight = np.exp(-0.5 * (distance / spread) ** 2).reshape(len(node), -1)
-    weight *= total[near.reshape(len(node), -1)]
+    near, distance = near.reshape(len(node), -1), distance.reshape(len(node), -1)
+    # The farthest node counts for nothing: none comes or goes from vertex to vertex.
+    reach = np.maximum(distance.max(axis=1, keepdims=True), 1e-6 * spread) * (1 + 1e-9)
+    weight = (1.0 - (distance / reach) ** 2) ** 2 * total[near]
     weight /= weight.sum(axis=1, keepdims=True)
     rows = np.repeat(np.arange(len(node)), weight.shape[1])
     return to_nodes, sparse.csr_array((weight.ravel(), (rows, near.ravel())), shape=(len(node), count))
