@@ -123,14 +123,15 @@ def _slide(
     return refined.moved(vertex[best], home, places), vertex[best]
 
 
-def _rim(refined: RefinedMesh, faces: Ints) -> Ints:
-    """Vertices that have triangles besides the given ones, or lie on a border."""
+def _rim(refined: RefinedMesh, faces: Ints) -> Mask:
+    """Whether a vertex has triangles besides the given ones, or lies on their border, (N,)."""
     count = len(refined.home)
     edges, edge_of = unique_edges(refined.faces[faces])
     border = edges[np.bincount(edge_of.ravel(), minlength=len(edges)) == 1]
     some = np.bincount(refined.faces[faces].ravel(), minlength=count)
-    every = np.bincount(refined.faces.ravel(), minlength=count)
-    return np.union1d(np.flatnonzero(some != every), border.ravel())
+    rim = some != np.bincount(refined.faces.ravel(), minlength=count)
+    rim[border] = True
+    return rim
 
 
 def _barycentric(points: Floats, triangles: Floats) -> Floats:

@@ -6,6 +6,7 @@ on the vertices near furrows.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,7 @@ from scipy import sparse
 from ..head.mesh import Floats, Ints, TriangleMesh
 from .balance import balanced
 from .blending import Blending
+from .furrow import Furrow
 from .furrow_bed import FurrowBed
 from .metric import perpendicular, vertex_metrics
 from .self_contact import Folds
@@ -44,15 +46,27 @@ class Creases:
     """
 
     def __init__(
-        self, bed: FurrowBed, *, strength: float = 1.0, measure: Measure = "three edges", self_contact: bool = True
+        self,
+        bed: FurrowBed,
+        furrows: Sequence[Furrow] | None = None,
+        *,
+        strength: float = 1.0,
+        measure: Measure = "three edges",
+        self_contact: bool = True,
     ) -> None:
-        """strength: multiplies every depth. measure: how shrinkage is measured, see shrinkage.py. self_contact: keep both
-        sides of a fold apart."""
+        """furrows: depth and r of those of the bed, in its order; without it the bed's own. strength: multiplies every
+        depth. measure: how shrinkage is measured, see shrinkage.py. self_contact: keep both sides of a fold apart.
+
+        Raises ValueError for another number of furrows than the bed has.
+        """
+        if furrows is None:
+            furrows = [laid.furrow for laid in bed.furrows]
+        if len(furrows) != len(bed.furrows):
+            raise ValueError(f"the skin is prepared for {len(bed.furrows)} furrows, not {len(furrows)}")
         self.bed = bed
         self.faces: Ints = bed.refined.faces
-        furrows = [laid.furrow for laid in bed.furrows]
         depth = strength * np.array([furrow.depth for furrow in furrows])[bed.furrow]
-        width = np.array([furrow.width for furrow in furrows])[bed.furrow]
+        width = np.array([laid.furrow.width for laid in bed.furrows])[bed.furrow]
         self._initial = np.array([furrow.initial for furrow in furrows])[bed.furrow]
         self._surface = SmoothSurface(bed.refined, bed.layout, bed.vertex)
         self._row = self._surface.row_of[bed.vertex]
@@ -80,16 +94,17 @@ class Creases:
         share = self._blending.applied(grown)
         surface = self._surface.at(posed)
 
-        rows = len(self._surface.vertices)
-        height, by_u, by_v = (
-            np.bincount(self._row, share * values, minlength=rows) for values in (self._height, self._by_u, self._by_v)
+        height = self._at_vertices(share * self._height)
+        # Like other directions, slopes need no more than single precision.
+        by_u, by_v = (
+            self._at_vertices(share * slope).astype(np.float32)[:, None] for slope in (self._by_u, self._by_v)
         )
         if self._folds is not None:
             height = self._folds.clamped(height, posed, surface)
         positions, normals, heights = self._whole(posed, surface.coarse_normals)
         fine = self._surface.vertices
         positions[fine] = surface.positions + height[:, None] * surface.normals
-        normals[fine] = unit(surface.normals - by_u[:, None] * surface.by_u - by_v[:, None] * surface.by_v)
+        normals[fine] = unit(surface.normals - by_u * surface.by_u - by_v * surface.by_v)
         heights[fine] = height
         return WrinkledSkin(positions, normals, heights, shrinkage, grown)
 
@@ -99,6 +114,10 @@ class Creases:
         # Computed anew from the triangles they would show the border of the refinement.
         mesh.__dict__["vertex_normals"] = skin.normals
         return mesh
+
+    def _at_vertices(self, values: Floats) -> Floats:
+        """Values of the entries, (i,), added up at the vertices of the fine surface, (k,)."""
+        return np.bincount(self._row, values, minlength=len(self._surface.vertices))
 
     def _whole(self, posed: Floats, normals: Floats) -> tuple[Floats, Floats, Floats]:
         """Positions, normals and heights of the whole refined skin, those of the coarse vertices filled in."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from ..head.head import Head
 from .creases import Creases
@@ -21,17 +22,23 @@ def face_layout(head: Head) -> SkinLayout:
 
 
 def face_bed(head: Head, furrows: Sequence[Furrow], fineness: float) -> FurrowBed:
-    """A head's skin prepared for furrows of the face chart; those that its face does not reach are left out."""
+    """Prepare a head's skin for furrows of the face chart. Only where they run and how wide they are counts here.
+
+    Those that the face does not reach are left out (a short neck may lack the lowest); ``chosen`` tells which are there.
+    """
     chart = FaceChart(head, face_layout(head))
-    laid = [chart.to_texture(furrow) for furrow in furrows]
-    return prepare_bed(chart.layout, [furrow for furrow in laid if furrow is not None], fineness)
+    laid = {k: chart.to_texture(furrow) for k, furrow in enumerate(furrows)}
+    found = {k: furrow for k, furrow in laid.items() if furrow is not None}
+    return replace(prepare_bed(chart.layout, list(found.values()), fineness), chosen=tuple(found))
 
 
 def face_creases(head: Head, settings: WrinkleSettings, bed: FurrowBed | None = None) -> Creases:
-    """The furrows of ``settings`` on a head, or on a bed that was prepared for them before."""
-    bed = bed or face_bed(head, settings.furrow_set(), settings.fineness)
+    """The furrows of ``settings`` on a head, or on its skin as ``face_bed`` prepared it for where they run."""
+    furrows = settings.furrow_set()
+    bed = bed or face_bed(head, furrows, settings.fineness)
     return Creases(
         bed,
+        [furrows[k] for k in bed.chosen],
         strength=settings.strength if settings.shown else 0.0,
         measure=settings.shrinkage,  # type: ignore[arg-type]  # a choice is one of MEASURES
         self_contact=settings.self_contact,

@@ -1,6 +1,6 @@
 """Skin prepared for its furrows: fine enough to carry them, and who lies beside what.
 
-Nothing here depends on depth or amplitude, so that those can be dragged live.
+Nothing here depends on depth or amplitude, so that those can be changed at once.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..head.mesh import Floats, Ints
+from ..head.mesh import Ints
 from .conform import conform
 from .furrow import Furrow
 from .laid_furrow import Beside, LaidFurrow
@@ -27,13 +27,15 @@ _SLACK = 1.05
 class FurrowBed:
     """A refined skin and where its vertices lie beside furrows.
 
-    layout: the skin and its map. furrows: k of them, laid in texture space. refined: the finer mesh, N vertices.
+    layout: the skin and its map. furrows: k of them, laid in texture space. chosen: which of the furrows that were asked
+    for these are, (k,). refined: the finer mesh, N vertices.
     The rest has an entry for every vertex within reach of a furrow (once for each furrow), i entries: vertex: which, (i,).
     furrow: beside which, (i,). beside: where.
     """
 
     layout: SkinLayout
     furrows: tuple[LaidFurrow, ...]
+    chosen: tuple[int, ...]
     refined: RefinedMesh
     vertex: Ints
     furrow: Ints
@@ -57,6 +59,7 @@ def prepare_bed(layout: SkinLayout, furrows: Sequence[Furrow], fineness: float =
     return FurrowBed(
         layout,
         laid,
+        tuple(range(len(laid))),
         refined,
         np.concatenate([np.zeros(0, dtype=np.int64), *(vertices for vertices, _ in entries)]),
         np.repeat(np.arange(len(laid)), [len(vertices) for vertices, _ in entries]),

@@ -9,7 +9,7 @@ import numpy as np
 from ..head.mesh import Floats
 from .bezier import BezierChain
 from .furrow import Furrow
-from .nearest import nearest_on_curve
+from .nearest import nearest_on_curve, slid_to_nearest
 from .shape import REACH
 from .skin_layout import SkinLayout
 
@@ -28,8 +28,8 @@ class Beside:
 
     t: parameter of the nearest point of the curve, (k,). distance: to it on the skin [m], (k,). side: 1 left, -1 right,
     (k,). inside: whether the point lies beside the curve and not past an end, (k,). fade: how much of the depth is
-    there, 0 at the ends to 1, (k,). toward: gradient of the distance in texture space [m], (k, 2), going down to zero on the curve.
-    along: gradient of the fade, (k, 2).
+    there, 0 at the ends to 1, (k,). toward: gradient of the distance in texture space [m], (k, 2), going down to zero
+    on the curve. along: gradient of the fade, (k, 2).
     """
 
     t: Floats
@@ -91,7 +91,7 @@ class LaidFurrow:
         places = self._whole(uv)
         first = nearest_on_curve(self.chain, places, metrics)
         mean = 0.5 * (metrics + self._metrics_at(first.t))
-        found = nearest_on_curve(self.chain, places, mean)
+        found = slid_to_nearest(self.chain, places, mean, first.t)
         covector = np.einsum("kij,kj->ki", mean, places - self.chain.at(found.t))
         # On the floor both sides meet, and the slope is theirs on average: none. It comes on over the first triangles, so
         # that shading does not depend on how far from the floor their corners happen to be.

@@ -9,13 +9,12 @@ import numpy as np
 from ..head.mesh import Floats, Ints
 from .bezier import BezierChain, bend, polynomial, slope
 
-# A curve is first looked at in this many places; the best few are then made exact by Newton's method.
+# A curve is first looked at in this many places; what may be nearest is then made exact by Newton's method.
 _SAMPLES = 16
-_CANDIDATES = 3
-_NEWTON_STEPS = 30
+_NEWTON_STEPS = 40
 _SETTLED = 1e-10
 # So many points are treated at a time, to bound memory.
-_BATCH = 8192
+_BATCH = 4096
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,38 +44,52 @@ def nearest_on_curve(chain: BezierChain, points: Floats, metrics: Floats | None 
     )
 
 
+def slid_to_nearest(chain: BezierChain, points: Floats, metrics: Floats, t: Floats) -> NearestOnCurve:
+    """The nearest point of a chain for each point, on the same curve as t and close to it, (k,)."""
+    piece, u = chain.split(t)
+    return _measured(chain, points, metrics, piece, _newton(chain.coefficients[piece], u, points, metrics))
+
+
 def _nearest(chain: BezierChain, points: Floats, metrics: Floats) -> NearestOnCurve:
+    row, piece, u = _candidates(chain, points, metrics)
+    u = _newton(chain.coefficients[piece], u, points[row], metrics[row])
+    away = points[row] - polynomial(chain.coefficients[piece], u)
+    order = np.lexsort((_form(metrics[row], away, away), row))
+    best = order[np.unique(row[order], return_index=True)[1]]
+    return _measured(chain, points, metrics, piece[best], u[best])
+
+
+def _measured(chain: BezierChain, points: Floats, metrics: Floats, piece: Ints, u: Floats) -> NearestOnCurve:
+    away = points - polynomial(chain.coefficients[piece], u)
+    tangent = slope(chain.coefficients[piece], u)
+    squared = _form(metrics, away, away)
+    side = np.where(tangent[:, 0] * away[:, 1] - tangent[:, 1] * away[:, 0] >= 0, 1.0, -1.0)
+    # Beside an end, and not past it, the way to the curve is square to it.
+    lengths = np.sqrt(squared * _form(metrics, tangent, tangent))
+    past = np.abs(_form(metrics, away, tangent)) > 1e-6 * np.maximum(lengths, np.finfo(float).tiny)
+    t = piece + u
+    return NearestOnCurve(t, np.sqrt(squared), side, ((t <= 0) | (t >= chain.count)) & past)
+
+
+def _candidates(chain: BezierChain, points: Floats, metrics: Floats) -> tuple[Ints, Ints, Floats]:
+    """Where to look: points, curves and parameters on them, (c,) each, near all minima that can be the lowest."""
     u = np.linspace(0.0, 1.0, _SAMPLES + 1)
     samples = polynomial(chain.coefficients[:, None], u)
-    piece, rough = _candidates(points, metrics, samples)
-    coefficients = chain.coefficients[piece]
-    local = _newton(coefficients, u[rough], points[:, None], metrics[:, None])
-    away = points[:, None] - polynomial(coefficients, local)
-    squared = _form(metrics[:, None], away, away)
-    row, best = np.arange(len(points)), squared.argmin(axis=1)
-    t, away = (piece + local)[row, best], away[row, best]
-    tangent = slope(coefficients[row, best], local[row, best])
-    side = np.where(tangent[:, 0] * away[:, 1] - tangent[:, 1] * away[:, 0] >= 0, 1.0, -1.0)
-    off_end = np.abs(_form(metrics, away, tangent)) > 1e-6 * np.sqrt(
-        np.maximum(squared[row, best] * _form(metrics, tangent, tangent), np.finfo(float).tiny)
-    )
-    beyond = ((t <= 0) | (t >= chain.count)) & off_end
-    return NearestOnCurve(t, np.sqrt(squared[row, best]), side, beyond)
-
-
-def _candidates(points: Floats, metrics: Floats, samples: Floats) -> tuple[Ints, Ints]:
-    """The curves and samples, (k, c) each, near the lowest local minima of the distance."""
     away = points[:, None, None] - samples
-    distance = _form(metrics[:, None, None], away, away)
-    padded = np.pad(distance, ((0, 0), (0, 0), (1, 1)), constant_values=np.inf)
-    lowest = (distance <= padded[..., :-2]) & (distance <= padded[..., 2:])
-    flat = np.where(lowest, distance, np.inf).reshape(len(points), samples.shape[0] * samples.shape[1])
-    found = np.argpartition(flat, _CANDIDATES - 1, axis=1)[:, :_CANDIDATES]
-    return np.divmod(found, samples.shape[1])
+    distance = np.sqrt(_form(metrics[:, None, None], away, away))
+    lowest = np.ones(distance.shape, dtype=bool)
+    lowest[..., 1:] &= distance[..., 1:] <= distance[..., :-1]
+    lowest[..., :-1] &= distance[..., :-1] <= distance[..., 1:]
+    # The curve comes nearer than its samples by less than the way between two of them.
+    step = np.linalg.norm(np.diff(samples, axis=1), axis=2).max()
+    bound = distance.min(axis=(1, 2)) + step * np.sqrt(metrics[:, 0, 0] + metrics[:, 1, 1])
+    row, piece, sample = np.nonzero(lowest & (distance <= bound[:, None, None]))
+    return row, piece, u[sample]
 
 
 def _newton(coefficients: Floats, u: Floats, points: Floats, metrics: Floats) -> Floats:
-    """The parameter where the distance is least, near u, (k, c): Newton's method within the two neighbouring samples."""
+    """The parameters where the distances are least, near u, (k,): Newton's method between the neighbouring samples."""
+    found, moving = u.copy(), np.arange(len(u))
     low, high = np.maximum(u - 1.0 / _SAMPLES, 0.0), np.minimum(u + 1.0 / _SAMPLES, 1.0)
     for _ in range(_NEWTON_STEPS):
         away, tangent = polynomial(coefficients, u) - points, slope(coefficients, u)
@@ -89,11 +102,13 @@ def _newton(coefficients: Floats, u: Floats, points: Floats, metrics: Floats) ->
         curvature = np.maximum(np.where(curvature > 0, curvature, speed), np.finfo(float).tiny)
         step = u - gradient / curvature
         step = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
-        settled = np.abs(step - u).max(initial=0.0) < _SETTLED
-        u = step
-        if settled:
+        found[moving] = step
+        left = np.abs(step - u) > _SETTLED
+        if not left.any():
             break
-    return u
+        coefficients, points, metrics = coefficients[left], points[left], metrics[left]
+        u, low, high, moving = step[left], low[left], high[left], moving[left]
+    return found
 
 
 def _form(metrics: Floats, a: Floats, b: Floats) -> Floats:

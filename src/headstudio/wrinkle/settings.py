@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from ..params import choice, number, switch
 from .default_furrows import default_furrows
-from .furrow import Furrow
+from .furrow import Controls, Furrow
 from .shrinkage import MEASURES
 
 
@@ -40,3 +40,7 @@ class WrinkleSettings:
         chosen = self.furrows or default_furrows(self.age)
         widest = 0.02
         return tuple(replace(furrow, width=min(furrow.width * self.breadth, widest)) for furrow in chosen)
+
+    def lines(self) -> tuple[tuple[Controls, float], ...]:
+        """Where the furrows run and how wide they are: all that the skin has to be prepared for again."""
+        return tuple((furrow.controls, furrow.width) for furrow in self.furrow_set())

@@ -76,7 +76,7 @@ class SkinLayout:
         if not self.texture_map.wrapped:
             return found, distance
         # A triangle across the seam reaches beyond u = 1.
-        again, other = self._plane.nearest(points + [1.0, 0.0])
+        again, other = self._plane.nearest(points + np.array([1.0, 0.0]))
         nearer = other < distance
         faces = np.where(nearer, again.faces, found.faces)
         weights = np.where(nearer[:, None], again.weights, found.weights)
