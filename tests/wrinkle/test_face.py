@@ -86,13 +86,16 @@ def test_expressions_move_the_face_as_they_are_read(faces, thick, name):
 
     inner, middle = brows(face.head, BROW_INNER), brows(face.head, BROW_MIDDLE)
     smile = moved("smile", corners)
-    assert (smile[:, 1] > 3).all() and smile[0, 0] > 2 and smile[1, 0] < -2
+    assert (smile[:, 1] > 3).all()
+    assert smile[0, 0] > 2
+    assert smile[1, 0] < -2
     assert (moved("troubled", corners)[:, 1] < -1.5).all()
     assert (moved("troubled", inner)[:, 1] > 2).all()
     assert (moved("troubled", inner)[:, 1] > moved("troubled", middle)[:, 1]).all()
     angry = moved("angry", inner)
     assert (angry[:, 1] < -2).all()
-    assert angry[0, 0] > 1 and angry[1, 0] < -1
+    assert angry[0, 0] > 1
+    assert angry[1, 0] < -1
     assert (moved("thinking", inner)[:, 1] < -1).all()
     assert (moved("surprise", middle)[:, 1] > 3).all()
     assert moved("surprise", marks.chin[None])[0, 1] < -8
@@ -180,7 +183,7 @@ def test_eyes_look_down_and_their_lids_follow(faces):
     assert right[1] is right[0]
     turned = np.linalg.norm(left[1].mesh.vertices - left[0].centre, axis=1)
     np.testing.assert_allclose(turned, np.linalg.norm(left[0].mesh.vertices - left[0].centre, axis=1), atol=1e-12)
-    lid = face.head.landmarks.left_eye + [0.0, 0.008, 0.004]
+    lid = face.head.landmarks.left_eye + np.array([0.0, 0.008, 0.004])
     assert change_at(face, pose, lid)[1] < -1e-3
 
 
@@ -196,7 +199,8 @@ def test_the_jaw_takes_lower_teeth_and_tongue_along(faces):
     assert drop["teeth False"] < -0.008
     assert drop["tongue"] < -0.004
     chin = change_at(face, pose, face.head.landmarks.chin)
-    assert chin[1] < -0.015 and chin[2] < 0.0
+    assert chin[1] < -0.015
+    assert chin[2] < 0.0
 
 
 def test_lips_part_with_the_jaw(faces):
@@ -204,7 +208,7 @@ def test_lips_part_with_the_jaw(faces):
     marks = face.head.landmarks
     middle = 0.5 * (marks.mouth_left + marks.mouth_right)
     pose = show(face, None, jaw_open=1.0)
-    upper, lower = (change_at(face, pose, middle + [0.0, level, 0.012]) for level in (0.008, -0.008))
+    upper, lower = (change_at(face, pose, middle + np.array([0.0, level, 0.012])) for level in (0.008, -0.008))
     assert abs(upper[1]) < 1e-3
     assert lower[1] < -0.012
 
@@ -222,7 +226,8 @@ def test_lashes_go_with_their_lids(faces):
 
 def test_units_are_another_driver_where_the_head_has_them(faces):
     human, mannequin = faces["makehuman"], faces["mannequin"]
-    assert human.has_units and not mannequin.has_units
+    assert human.has_units
+    assert not mannequin.has_units
     smile = {"smile": 1.0}
     by = {driver: show(human, None, driver=driver, **smile).positions for driver in ("muscles", "units", "both")}
     assert np.abs(by["units"] - by["muscles"]).max() > 2e-3

@@ -31,10 +31,8 @@ def stick_hand(side: str = "left", tilt: Rotation | None = None, scale: float = 
         for bone, part in zip(bones_of(finger), (-1.0, 0.0, 0.5, 0.8, 1.05)):
             y = 0.02 if part < 0 else knuckle + part * length
             at[bone] = (0.4 * x if part < 0 else x, y, -0.002 * max(part, 0.0))
-    for bone, place in zip(
-        bones_of("thumb"), ((0.02, 0.02, -0.008), (0.048, 0.045, -0.016), (0.062, 0.072, -0.02), (0.07, 0.096, -0.022))
-    ):
-        at[bone] = place
+    thumb = ((0.02, 0.02, -0.008), (0.048, 0.045, -0.016), (0.062, 0.072, -0.02), (0.07, 0.096, -0.022))
+    at.update(zip(bones_of("thumb"), thumb))
     names = tuple(at)
     positions = scale * np.array(list(at.values())) * (MIRROR if side == "right" else 1.0)
     positions = positions if tilt is None else tilt.apply(positions)
@@ -160,7 +158,8 @@ def test_the_arm_reaches_above_the_elbow_and_has_the_same_hand(human):
 def test_the_foot_stands_with_its_toes_forward():
     foot = makehuman_foot()
     low, high = foot.skin.bounds
-    assert high[2] > 0.12 and low[2] > -0.08
+    assert high[2] > 0.12
+    assert low[2] > -0.08
     assert -0.12 < low[1] < -0.04
     assert high[1] == pytest.approx(0.09, abs=0.002)
     with pytest.raises(HeadError, match="foot has no skeleton"):

@@ -29,7 +29,8 @@ def test_keyframes_are_met_and_held_before_and_after():
 def test_motion_between_keyframes_is_smooth_and_never_goes_beyond_them():
     times = np.linspace(-0.2, 2.2, 2401)
     smile = np.array([weights_at(TAKE, time)["smile"] for time in times])
-    assert smile.min() >= 0 and smile.max() <= 1
+    assert smile.min() >= 0
+    assert smile.max() <= 1
     assert (smile[(times > 0.5) & (times < 1.5)] == 1.0).all()
     speed = np.diff(smile) / np.diff(times)
     assert np.abs(np.diff(speed)).max() < 0.05 * np.abs(speed).max()

@@ -55,7 +55,7 @@ def test_a_collapsed_triangle_makes_no_spike():
 
 def test_two_sides_of_a_fold_do_not_share_their_tissue():
     front = sheet(21)
-    back = TriangleMesh(front.vertices + [0.0, 0.0, -0.002], front.faces[:, ::-1])
+    back = TriangleMesh(front.vertices + np.array([0.0, 0.0, -0.002]), front.faces[:, ::-1])
     both = TriangleMesh(
         np.concatenate([front.vertices, back.vertices]), np.concatenate([front.faces, back.faces + len(front.vertices)])
     )
