@@ -37,6 +37,17 @@ ViewOption = Annotated[str | None, typer.Option("--view", help="front, three-qua
 SeedOption = Annotated[int | None, typer.Option("--seed", help="Start of the random numbers.")]
 ParticlesOption = Annotated[int | None, typer.Option("--particles", help="How many particles carry the hair.")]
 
+PresetOption = Annotated[
+    str | None, typer.Option("--preset", metavar="NAME", help="A hairstyle that ships; headstudio styles lists them.")
+]
+PointsOption = Annotated[
+    int | None, typer.Option("--points", min=2, max=1000, help="Points of every strand that is written.")
+]
+PerStrandOption = Annotated[
+    int | None,
+    typer.Option("--points-per-strand", min=2, help="How many points make a strand, for files of bare points."),
+]
+
 DIFFERENT = 1
 CANCELLED = 130
 FAILED = 2
@@ -157,6 +168,88 @@ def render(
     document, movement = choose_motion(document, motion)
     render(choose_view(document, view), movement, seconds, parse_size(size), out)
     typer.echo(out)
+
+
+@command()
+def style(
+    project: Project = None,
+    preset: PresetOption = None,
+    strands: Annotated[int | None, typer.Option("--strands", help="How many strands (N_s).")] = None,
+    wisps: Annotated[int | None, typer.Option("--wisps", help="How many wisps (N_w).")] = None,
+    out: Annotated[
+        Path, typer.Option(help="A picture (.png), a project (.headstudio), or strands: .npy, .usda, .hair ...")
+    ] = Path("style.png"),
+    size: SizeOption = "512",
+    view: ViewOption = None,
+    points: PointsOption = None,
+    head: HeadOption = None,
+    seed: SeedOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Style hair from wisps: a picture, a project or the strands themselves."""
+    from .commands.documents import choose_view, head_source, open_document
+    from .commands.pictures import parse_size
+    from .commands.style import style
+
+    document = open_document(
+        project,
+        set_ or (),
+        preset,
+        head_source=head_source(head),
+        wisp_strands=strands,
+        wisp_wisps=wisps,
+        wisp_seed=seed,
+    )
+    style(choose_view(document, view), out, parse_size(size), points)
+
+
+@command()
+def styles() -> None:
+    """List the hairstyles that ship, one a line, its name first."""
+    from .commands.style import styles
+
+    styles()
+
+
+@command()
+def export(
+    source: Annotated[str, typer.Argument(metavar="SOURCE", help="A project, a style by its name, or any hair file.")],
+    out: Annotated[
+        Path, typer.Argument(metavar="OUT", help="The ending chooses: .hair .data .npy .obj .ply .usda ...")
+    ],
+    points: PointsOption = None,
+    points_per_strand: PerStrandOption = None,
+    strands: Annotated[int | None, typer.Option("--strands", help="How many strands of a style (N_s).")] = None,
+    head: HeadOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Write strands in another program's format."""
+    from .commands.documents import head_source
+    from .commands.export_hair import export_hair
+    from .commands.hair_sources import hair_document, is_hair_file
+    from .params import assign, parse_assignments
+
+    if is_hair_file(source):
+        export_hair(Path(source), out, points, points_per_strand)
+        return
+    chosen = {"head.source": head_source(head), "wisp.strands": strands}
+    given = {path: value for path, value in chosen.items() if value is not None}
+    document = assign(hair_document(source), given | parse_assignments(set_ or []))
+    export_hair(document, out, points, points_per_strand)
+
+
+@command("import")
+def import_(
+    hair: Annotated[Path, typer.Argument(metavar="HAIR", help=".hair .data .npy .obj .ply .usd .rib .tfx")],
+    out: Annotated[Path | None, typer.Option(help="Where to write the strands as they lie on the head.")] = None,
+    points_per_strand: PerStrandOption = None,
+    head: HeadOption = None,
+) -> None:
+    """Look at the strands of another program, and place them on a head."""
+    from .commands.documents import head_source, open_document
+    from .commands.import_hair import import_hair
+
+    import_hair(hair, open_document(None, (), head_source=head_source(head)), points_per_strand, out)
 
 
 @command()

@@ -15,12 +15,15 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
 from ..scene.project import Project, load_project, new_project
+from ..scene.styles import load_style
 from ..scene.views import seen_from
 from .reporting import warn, working
 
 
-def open_document(project: Path | None, assignments: Sequence[str], **chosen: Any) -> Document:
-    """The project, or a new document, with parameters replaced.
+def open_document(
+    project: Path | None, assignments: Sequence[str], preset: str | None = None, **chosen: Any
+) -> Document:
+    """The project, or a new document, with the hair of a style that ships and parameters replaced.
 
     ``chosen`` are options such as ``head_source="mannequin"`` (None: not given), named by the parameter's path with
     ``_`` for the dot after its part. ``assignments`` are words like "lcp.friction=2" and have the last word. Raises
@@ -34,8 +37,9 @@ def open_document(project: Path | None, assignments: Sequence[str], **chosen: An
         start = Project(Document())
     for warning in start.warnings:
         warn(warning)
+    document = start.document if preset is None else load_style(preset).on(start.document)
     given = {name.replace("_", ".", 1): value for name, value in chosen.items() if value is not None}
-    return assign(start.document, given | parse_assignments(list(assignments)))
+    return assign(document, given | parse_assignments(list(assignments)))
 
 
 def head_source(word: str | None) -> str | None:
