@@ -1,0 +1,69 @@
+"""Hairstyles and hair files on the command line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from headstudio.io.hair import read_strands
+from headstudio.scene.project import load_project
+from headstudio.scene.styles import style_names
+
+FEW = ["--head", "mannequin", "--strands", "300", "--set", "wisp.wisps=40"]
+
+
+def test_every_style_is_listed_by_name(headstudio):
+    lines = headstudio("styles").output.splitlines()
+    assert [line.partition(":")[0] for line in lines] == list(style_names())
+    assert all(line.partition(": ")[2] for line in lines)
+
+
+def test_a_style_as_strands_a_project_and_a_picture(headstudio, tmp_path):
+    headstudio("style", "--preset", "bob", "--wisps", "40", *FEW[:4], "--out", str(tmp_path / "bob.npy"))
+    strands = read_strands(tmp_path / "bob.npy")
+    assert strands.count == 300
+    headstudio("style", "--preset", "bob", *FEW, "--out", str(tmp_path / "bob.headstudio"))
+    document = load_project(tmp_path / "bob.headstudio").document
+    assert document.look.hair_as == "strands"
+    assert document.wisp.strands == 300
+    out = tmp_path / "bob.png"
+    headstudio("style", str(tmp_path / "bob.headstudio"), "--size", "96", "--out", str(out))
+    pixels = np.asarray(Image.open(out))
+    assert pixels.shape == (96, 96, 3)
+    assert pixels.std() > 10
+
+
+def test_export_of_a_style_and_of_a_file(headstudio, tmp_path):
+    headstudio("export", "ponytail", str(tmp_path / "tail.hair"), *FEW)
+    first = read_strands(tmp_path / "tail.hair")
+    headstudio("export", str(tmp_path / "tail.hair"), str(tmp_path / "tail.tfx"), "--points", "16")
+    assert read_strands(tmp_path / "tail.tfx").counts.tolist() == [16] * first.count
+
+
+def test_import_says_what_it_found(headstudio, tmp_path):
+    headstudio("export", "bob", str(tmp_path / "bob.usda"), *FEW)
+    said = headstudio("import", str(tmp_path / "bob.usda"), "--head", "mannequin", "--out", str(tmp_path / "back.ply"))
+    assert "strands: 300" in said.output
+    assert "the head's coordinates" in said.output
+    assert np.allclose(
+        read_strands(tmp_path / "back.ply").points, read_strands(tmp_path / "bob.usda").points, atol=2e-3
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["style", "--preset", "nonsense", "--out", "x.png"], "no style 'nonsense'"),
+        (["style", "--out", "x.xyz"], "a style is written to"),
+        (["export", "nonsense", "x.hair"], "neither a project"),
+        (["export", "bob", "x.xyz"], "hair is written to"),
+        (["export", "missing.hair", "x.ply"], "missing.hair"),
+        (["import", "missing.tfx"], "missing.tfx"),
+    ],
+)
+def test_what_cannot_be_is_one_line_and_status_2(headstudio, words, complaint):
+    said = headstudio(*words)
+    assert said.status == 2
+    assert complaint in said.complaint
+    assert len(said.complaint.strip().splitlines()) == 1
