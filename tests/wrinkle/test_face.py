@@ -213,14 +213,18 @@ def test_lips_part_with_the_jaw(faces):
     assert lower[1] < -0.012
 
 
-def test_lashes_go_with_their_lids(faces):
+def test_lashes_turn_with_their_lids_hair_by_hair(faces):
     face = faces["makehuman"]
     pose = show(face, None, blink=1.0)
     for part, posed in zip(face.head.parts, pose.parts):
         if part.kind == "lashes":
-            before = cKDTree(face.head.skin.vertices).query(part.mesh.vertices)[0].min()
-            after = cKDTree(pose.positions).query(posed.mesh.vertices)[0].min()
-            assert after < before + 5e-4
+            edges = np.concatenate([part.mesh.faces[:, [0, 1]], part.mesh.faces[:, [1, 2]], part.mesh.faces[:, [2, 0]]])
+            before, after = (
+                np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
+                for mesh in (part.mesh, posed.mesh)
+            )
+            np.testing.assert_allclose(after, before, rtol=1e-6, atol=1e-9)
+            assert cKDTree(pose.positions).query(posed.mesh.vertices)[0].min() < 1e-3
             assert np.linalg.norm(posed.mesh.vertices - part.mesh.vertices, axis=1).max() > 5e-4
 
 

@@ -15,7 +15,7 @@ from .face_settings import FaceSettings
 from .jaw import find_jaw
 from .lids import find_lids
 from .muscle_set import SIDES, place_muscles
-from .part_motion import EyeMotion, HairPartMotion, JawPartMotion
+from .part_motion import BrowMotion, EyeMotion, JawPartMotion, LashMotion
 from .tissue import TissueLift
 
 # Displacements below this [m] per unit of contraction are left out.
@@ -25,6 +25,7 @@ _SHARED = 0.045
 # How much of the turn of an eye its lids follow.
 _UPPER_FOLLOWS, _LOWER_FOLLOWS = 0.7, 0.35
 _WIDEST_JAW = np.radians(26.0)
+_Motion = EyeMotion | JawPartMotion | LashMotion | BrowMotion
 _SHOWN = {**EXPRESSIONS, "blink": BLINK}
 
 
@@ -151,24 +152,30 @@ class Face:
             return motion.posed(drive.gaze[_side_of(self.head.parts[index])])
         if isinstance(motion, JawPartMotion):
             return motion.posed(drive.jaw)
-        if isinstance(motion, HairPartMotion):
-            side = next((side for side, lids in self._lids.items() if lids is motion.lids), SIDES[0])
+        if isinstance(motion, LashMotion):
+            side = next(side for side, lids in self._lids.items() if lids is motion.lids)
             return motion.posed(positions, drive.upper[side], drive.lower[side])
+        if isinstance(motion, BrowMotion):
+            return motion.posed(positions)
         return self.head.parts[index]
 
-    def _part_motions(self) -> list[EyeMotion | JawPartMotion | HairPartMotion | None]:
+    def _part_motions(self) -> list[_Motion | None]:
         teeth = [part.mesh.vertices[:, 1] for part in self.head.parts if part.kind == "teeth"]
         level = 0.5 * (min(each.min() for each in teeth) + max(each.max() for each in teeth)) if teeth else 0.0
         left = self.head.landmarks.left_eye - self.head.landmarks.right_eye
         left = left / np.linalg.norm(left)
-        motions: list[EyeMotion | JawPartMotion | HairPartMotion | None] = []
+        motions: list[_Motion | None] = []
         for part in self.head.parts:
             if part.kind == "eye" and part.axis is not None:
                 motions.append(EyeMotion(part, left))
             elif part.kind in ("teeth", "tongue"):
                 motions.append(JawPartMotion(part, self._jaw, level))
+            elif part.kind == "lashes" and self._lids:
+                middle = part.mesh.vertices.mean(axis=0)
+                nearest = min(self._lids.values(), key=lambda lids: float(np.linalg.norm(lids.centre - middle)))
+                motions.append(LashMotion(part, self.head, nearest))
             elif part.kind in ("lashes", "brows"):
-                motions.append(HairPartMotion(part, self.head, list(self._lids.values())))
+                motions.append(BrowMotion(part, self.head))
             else:
                 motions.append(None)
         return motions

@@ -35,7 +35,8 @@ class Lids:
 
     centre: of the ball, shape (3,) [m]. left, up, forward: unit axes of the eye. vertices: those of the skin that lids
     move or that lie near the ball, (k,). fall: how far down each of them turns when the upper lid closes, rise: how far
-    up when the lower one does [rad], (k,). clearance: how near to the centre each may come [m], (k,).
+    up when the lower one does [rad], (k,). clearance: how near to the centre each may come [m], (k,). top, bottom: angles
+    of the margins over the columns of the eye [rad], (50,).
     """
 
     centre: Floats
@@ -46,6 +47,8 @@ class Lids:
     fall: Floats
     rise: Floats
     clearance: Floats
+    top: Floats
+    bottom: Floats
 
     @property
     def largest_fall(self) -> float:
@@ -60,6 +63,13 @@ class Lids:
     def turns(self, upper: float, lower: float) -> Floats:
         """How far each vertex turns down [rad], (k,). upper, lower: 1 where the lids meet, 0 at rest, below 0 wider."""
         return min(upper, 1.0) * self.fall - min(lower, 1.0) * self.rise
+
+    def margin_turns(self, roots: Floats, upper: float, lower: float) -> Floats:
+        """How far down the margin turns where lashes have their roots, (k, 3) [m]: (k,) [rad]."""
+        column, angle, _ = _polar(roots - self.centre, (self.left, self.up, self.forward))
+        top, bottom = np.interp(column, _COLUMNS, self.top), np.interp(column, _COLUMNS, self.bottom)
+        fall, rise = (1.0 - _MEETING) * (top - bottom), _MEETING * (top - bottom)
+        return np.where(angle > 0.5 * (top + bottom), min(upper, 1.0) * fall, -min(lower, 1.0) * rise)
 
     def turned(self, points: Floats, turn: Floats) -> Floats:
         """Points, (k, 3), turned down about the middle of the eye by ``turn`` [rad], (k,)."""
@@ -88,12 +98,10 @@ def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:
         return None
     upper, lower = margins
     away = skin.vertices - eye.centre
-    distance = np.linalg.norm(away, axis=1)
+    near = np.nonzero(np.linalg.norm(away, axis=1) < _THICK[1] * eye.radius)[0]
+    away = away[near]
+    column, angle, distance = _polar(away, (left, up, forward))
     ahead = away @ forward
-    near = np.nonzero(distance < _THICK[1] * eye.radius)[0]
-    away, distance, ahead = away[near], distance[near], ahead[near]
-    column = away @ left / np.maximum(distance, 1e-9)
-    angle = np.arctan2(away @ up, ahead)
     top, bottom = np.interp(column, _COLUMNS, upper), np.interp(column, _COLUMNS, lower)
     meeting = bottom + _MEETING * (top - bottom)
     thick = _ramp((_THICK[1] - distance / eye.radius) / (_THICK[1] - _THICK[0])) * _ramp(ahead / eye.radius / _FRONT)
@@ -110,7 +118,16 @@ def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:
         fall=np.where(is_upper, above, 0.0) * (top - meeting),
         rise=np.where(is_upper, 0.0, below) * (meeting - bottom),
         clearance=np.where(distance < eye.radius, 0.0, np.minimum(distance, _CLEAR * eye.radius)),
+        top=upper,
+        bottom=lower,
     )
+
+
+def _polar(away: Floats, axes: tuple[Floats, Floats, Floats]) -> tuple[Floats, Floats, Floats]:
+    """Column, which is the sine of the angle to the left, angle up [rad] and distance [m] from the middle, (k,) each."""
+    left, up, forward = axes
+    distance = np.linalg.norm(away, axis=1)
+    return away @ left / np.maximum(distance, 1e-9), np.arctan2(away @ up, away @ forward), distance
 
 
 def _axes(marks: Landmarks, axis: Floats) -> tuple[Floats, Floats, Floats]:

@@ -1,20 +1,24 @@
-"""How the loose parts of a head follow its face: eyes turn, lower teeth and tongue go with the jaw, lashes with the lids."""
+"""How the loose parts of a head follow its face: eyes turn, lower teeth and tongue go with the jaw, lashes with lids."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+import igl
 import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..head.head import Head, Part
-from ..head.mesh import Floats
+from ..head.mesh import Floats, Ints, TriangleMesh
 from .jaw import Jaw, lower_share
 from .lids import Lids
 
-# Lashes grow where a lid turns by at least this part of its margin.
-_MARGIN = 0.9
+# How many vertices of the skin carry a lash, and how evenly near ones share [m].
+_CARRIERS = 6
+_SOFT = 0.0005
+# A piece with less than this part of the vertices of all lashes is a single hair.
+_HAIR_SHARE = 0.2
 
 
 class EyeMotion:
@@ -53,43 +57,62 @@ class JawPartMotion:
         return replace(self._part, mesh=self._part.mesh.moved(vertices))
 
 
-class HairPartMotion:
-    """Lashes and brows: every vertex keeps its place beside the vertex of the skin that it grows from."""
+class BrowMotion:
+    """Brows: every vertex keeps its place beside the vertex of the skin that it grows from."""
 
-    def __init__(self, part: Part, head: Head, lids: list[Lids]) -> None:
+    def __init__(self, part: Part, head: Head) -> None:
         self._part = part
         self._rest = head.skin.vertices
-        self._lids: Lids | None = None
+        self._root = cKDTree(self._rest).query(part.mesh.vertices)[1]
+
+    def posed(self, positions: Floats) -> Part:
+        """The part on the skin at ``positions`` [m], (n, 3)."""
+        change = positions[self._root] - self._rest[self._root]
+        return (
+            replace(self._part, mesh=self._part.mesh.moved(self._part.mesh.vertices + change))
+            if change.any()
+            else self._part
+        )
+
+
+class LashMotion:
+    """Lashes: each hair turns with the margin of its lid, and is carried by what else moves the skin there.
+
+    A lash that is no single hair but a whole strip turns point by point.
+    """
+
+    def __init__(self, part: Part, head: Head, lids: Lids) -> None:
+        self._part = part
+        self._lids = lids
         vertices = part.mesh.vertices
-        if part.kind == "lashes" and lids:
-            middle = vertices.mean(axis=0)
-            self._lids = min(lids, key=lambda each: float(np.linalg.norm(each.centre - middle)))
-            turn = np.abs(np.maximum(self._lids.fall, self._lids.rise))
-            margin = np.nonzero(turn > _MARGIN * _nearby_most(turn, self._rest[self._lids.vertices]))[0]
-            self._entry = margin[cKDTree(self._rest[self._lids.vertices[margin]]).query(vertices)[1]]
-            self._root = self._lids.vertices[self._entry]
-        else:
-            self._root = cKDTree(self._rest).query(vertices)[1]
+        self._roots = vertices[_hair_roots(part.mesh, lids.centre)]
+        skin = head.skin.vertices[lids.vertices]
+        distance, near = cKDTree(skin).query(self._roots, k=_CARRIERS)
+        self._carriers = lids.vertices[near]
+        self._rest = skin[near].reshape(-1, 3)
+        self._rest_turn = near
+        weight = 1.0 / (distance + _SOFT) ** 2
+        self._weight = (weight / weight.sum(axis=1, keepdims=True))[..., None]
 
     def posed(self, positions: Floats, upper: float, lower: float) -> Part:
         """The part on the skin at ``positions`` [m], (n, 3), with the lids of its eye closed so far."""
-        moved = positions[self._root]
-        if np.array_equal(moved, self._rest[self._root]):
-            return self._part
-        beside = self._part.mesh.vertices - self._rest[self._root]
-        if self._lids is not None:
-            turn = self._lids.turns(upper, lower)[self._entry]
-            beside = self._lids.turned(self._lids.centre + beside, turn) - self._lids.centre
-        return replace(self._part, mesh=self._part.mesh.moved(moved + beside))
+        lids = self._lids
+        turn = lids.turns(upper, lower)[self._rest_turn]
+        carried = positions[self._carriers] - lids.turned(self._rest, turn.ravel()).reshape((*self._carriers.shape, 3))
+        margin = lids.margin_turns(self._roots, upper, lower)
+        vertices = lids.turned(self._part.mesh.vertices, margin) + (self._weight * carried).sum(axis=1)
+        return replace(self._part, mesh=self._part.mesh.moved(vertices))
 
     @property
-    def lids(self) -> Lids | None:
-        """The lids that the part grows on, None for brows."""
+    def lids(self) -> Lids:
+        """The lids that the lashes grow on."""
         return self._lids
 
 
-def _nearby_most(values: Floats, points: Floats) -> Floats:
-    """The greatest value among the 30 nearest points, (k,)."""
-    near = cKDTree(points).query(points, k=min(30, len(points)))[1]
-    most: Floats = values[near].max(axis=1)
-    return most
+def _hair_roots(lash: TriangleMesh, eye_centre: Floats) -> Ints:
+    """The vertex at the root of every vertex's hair, the one nearest to the eye; in a strip each is its own, (k,)."""
+    pieces = igl.connected_components(igl.adjacency_matrix(lash.faces))[1]
+    order = np.lexsort((np.linalg.norm(lash.vertices - eye_centre, axis=1), pieces))
+    first = order[np.unique(pieces[order], return_index=True)[1]]
+    is_hair = np.bincount(pieces) < _HAIR_SHARE * len(pieces)
+    return np.where(is_hair[pieces], first[pieces], np.arange(len(pieces)))
