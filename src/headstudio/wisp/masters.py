@@ -66,17 +66,17 @@ def master_controls(outlines: Outlines, details: Details) -> Singles:
         centres = np.matmul(catmull_rom_matrix(joints + 1, at), centres)
     if details.offsets is None:
         return centres.astype(np.float32)
-    frames = _frames_at(outlines.frames, at).astype(np.float32)
+    frames = _frames_at(outlines.frames.astype(np.float32), at)
     turned: Singles = np.einsum("wnij,wnj->wni", frames, details.offsets)
     return (centres + turned).astype(np.float32)
 
 
-def _frames_at(frames: Floats, at: Floats) -> Floats:
+def _frames_at(frames: Singles, at: Floats) -> Singles:
     """Frames along outlines at parameters counted in segments, (n,): (W, n, 3, 3). Each segment's is at its middle."""
     place = np.clip(at - 0.5, 0, frames.shape[1] - 1)
     before = np.minimum(place.astype(np.int64), max(frames.shape[1] - 2, 0))
     after = np.minimum(before + 1, frames.shape[1] - 1)
-    part = (place - before)[:, None, None]
+    part = (place - before).astype(np.float32)[:, None, None]
     blend = (1 - part) * frames[:, before] + part * frames[:, after]
     along = unit(blend[..., 2])
     across = blend[..., 0] - np.einsum("wni,wni->wn", blend[..., 0], along)[..., None] * along
