@@ -43,7 +43,7 @@ class CarvedField:
 
     texels: the map it lies on. height: of the skin over its surface, never positive [m], (size, size). occupied: where
     no furrow may start, which in the end is everywhere, (size, size). segments: of all furrows, by furrow, in the order
-    in which they were carved. laws, unit: how long, wide and deep they are; unit in texels.
+    in which they were carved. laws: how long, wide and deep they are.
     """
 
     texels: TexelMap
@@ -51,14 +51,12 @@ class CarvedField:
     occupied: Flags
     segments: Segments
     laws: FurrowLaws
-    unit: float
 
 
 def carve(
     field: DirectionField,
     laws: FurrowLaws,
     *,
-    unit: float,
     depth: float,
     roundness: float = 0.0,
     seed: int | np.random.SeedSequence,
@@ -67,13 +65,13 @@ def carve(
 ) -> CarvedField:
     """Cover a mapped mesh with furrows along a field.
 
-    laws: see ``LAWS``. unit: of their lengths [texels]. depth: of a furrow whose intensity I is 0 [m].
+    laws: see ``LAWS``. depth: of a furrow whose intensity I is 0 [m].
     roundness: 0 leaves the skin between grooves flat, above that it is raised like a cushion (see ``Images.draw``).
     seed: the same gives the same furrows. onward: segments with which furrows of a neighbouring body part cross the
     border, one each; they grow on from there before others start. batch: how many starting points are tried at once,
     which changes nothing but the time; left out, as many as is quick.
     """
-    carver = _Carver(field, laws, unit, depth, roundness, np.random.default_rng(seed), onward)
+    carver = _Carver(field, laws, depth, roundness, np.random.default_rng(seed), onward)
     carver.fill(batch)
     return CarvedField(
         texels=field.texels,
@@ -81,7 +79,6 @@ def carve(
         occupied=carver.images.occupied,
         segments=_by_furrow(carver.carved),
         laws=laws,
-        unit=unit,
     )
 
 
@@ -92,14 +89,13 @@ class _Carver:
         self,
         field: DirectionField,
         laws: FurrowLaws,
-        unit: float,
         depth: float,
         roundness: float,
         rng: np.random.Generator,
         onward: Segments | None,
     ) -> None:
-        self.laws, self.unit, self.depth, self.roundness, self.rng = laws, unit, depth, roundness, rng
-        self.growth = Growth(field, laws, unit, rng)
+        self.laws, self.depth, self.roundness, self.rng = laws, depth, roundness, rng
+        self.growth = Growth(field, laws, rng)
         self.texels = texels = field.texels
         self.images = Images(
             height=np.zeros((texels.size, texels.size), dtype=np.float32),
@@ -108,6 +104,7 @@ class _Carver:
         )
         # The largest lengths the laws give anywhere in the field.
         largest = laws.at(np.linspace(0.0, field.strongest, 65))
+        unit = field.units.max()
         longest = unit * largest.length.max()
         if onward:
             longest = max(longest, np.hypot(*onward.steps.T).max())
@@ -194,7 +191,7 @@ class _Carver:
         self.older.add(kept)
         self.carved.append(kept)
         law = self.laws.at(kept.magnitudes)
-        widths, spacings = self.unit * law.width, self.unit * law.spacing
+        widths, spacings = kept.units * law.width, kept.units * law.spacing
         steps = kept.reach[:, None] * kept.steps
         self.images.draw(kept.starts, steps, widths, self.depth * law.depth, spacings, self.roundness)
         return grows, 1 - len(kept) / max(len(grown), 1)
@@ -211,7 +208,7 @@ class _Carver:
         joint = own & (grown.order[met.arriving] == 0) & (grown.order[met.present] == 0)
         among = np.flatnonzero(np.where(by == ended, gap > 1, by < ended) & ~joint)
 
-        claims = 0.5 * self.unit * self.laws.at(grown.magnitudes).spacing
+        claims = 0.5 * grown.units * self.laws.at(grown.magnitudes).spacing
         covering = self.growing.covering(starts, claims)
         self.growing.clear()
         later = np.flatnonzero(grown.furrows[covering.present] < covering.arriving)

@@ -6,6 +6,8 @@ mesh, with the constants of a harmonic map (Eck et al. 1995), while the given on
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import igl
 import numpy as np
 from scipy.sparse import csc_array, diags_array
@@ -46,27 +48,43 @@ def interpolate(texture_map: TextureMap, vertices: Ints, values: Floats) -> Floa
     return result
 
 
+class FieldSample(NamedTuple):
+    """The field at k points. On a triangle of -1, off the mesh, the rest means nothing.
+
+    directions: unit, (k, 2). magnitudes: m, 0 to 1, (k,). units: see DirectionField, (k,). triangles: (k,).
+    """
+
+    directions: Floats
+    magnitudes: Floats
+    units: Floats
+    triangles: Ints
+
+
 class DirectionField:
     """Direction vectors given at the vertices of a texture map, asked at any of its points."""
 
-    def __init__(self, texels: TexelMap, vectors: Floats) -> None:
-        """vectors: per vertex of the map, in texture space, (n, 2); their length is the magnitude m."""
+    def __init__(self, texels: TexelMap, vectors: Floats, units: float | Floats = 1.0) -> None:
+        """vectors: per vertex of the map, in texture space, (n, 2); their length is the magnitude m.
+
+        units: how many texels the unit of the laws is at every vertex, (n,), or everywhere. See ``units_on_skin``.
+        """
         self.texels = texels
         self.vectors = vectors
+        self.units = np.broadcast_to(np.asarray(units, dtype=np.float64), len(vectors))
 
-    def at(self, points: Floats) -> tuple[Floats, Floats, Ints]:
-        """Unit directions, (k, 2), magnitudes from 0 to 1, (k,), and triangles, (k,), at ``points`` [texels], (k, 2).
+    def at(self, points: Floats) -> FieldSample:
+        """The field at ``points`` [texels], (k, 2), interpolated between the corners of the triangle of each.
 
-        Interpolated between the corners of the triangle (step 1 of section 2.6.2). Off the mesh the triangle is -1 and
-        the rest means nothing. Where the field vanishes every direction is as good: it is u.
+        This is step 1 of section 2.6.2. Where the field vanishes every direction is as good: it is u.
         """
         triangle = self.texels.triangle_at(points)
         weights = self.texels.weights(triangle, points)
-        corners = self.vectors[self.texels.map.mesh.faces[triangle]]
-        vector = (weights[:, :, None] * corners).sum(axis=1)
+        corners = self.texels.map.mesh.faces[triangle]
+        vector = (weights[:, :, None] * self.vectors[corners]).sum(axis=1)
         length = np.hypot(vector[:, 0], vector[:, 1])
         vector[length == 0] = 1.0, 0.0
-        return vector / np.where(length == 0, 1.0, length)[:, None], np.minimum(length, 1.0), triangle
+        direction = vector / np.where(length == 0, 1.0, length)[:, None]
+        return FieldSample(direction, np.minimum(length, 1.0), (weights * self.units[corners]).sum(axis=1), triangle)
 
     @property
     def directions(self) -> Floats:

@@ -35,10 +35,10 @@ class FineSettings:
 
     on: bool = switch(True, "Fine wrinkles", "Cover the skin with fine furrows.")
     texture_size: int = integer(
-        1024, "Texture size", 128, 4096, "Width and height of the height fields in texels.", log=True
+        2048, "Texture size", 128, 4096, "Width and height of the height fields in texels.", log=True
     )
     unit: float = number(
-        0.12e-3,
+        0.2e-3,
         "Size",
         "m",
         0.02e-3,
@@ -48,7 +48,7 @@ class FineSettings:
         log=True,
     )
     depth: float = number(
-        0.2e-3, "Depth", "m", 0.0, 1e-3, "Depth of furrows where the field is strongest, m = 1.", shown="mm"
+        0.4e-3, "Depth", "m", 0.0, 1e-3, "Depth of furrows where the field is strongest, m = 1.", shown="mm"
     )
     strength: float = number(
         1.0, "Strength", "", 0.0, 2.0, "Scales the field: stronger is deeper, wider, straighter and wider apart."

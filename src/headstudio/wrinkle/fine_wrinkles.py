@@ -26,6 +26,8 @@ from .texture_map import TextureMap
 
 # Below this part of the full depth nothing is carved: palms and soles.
 _BARE = 1e-3
+# How much finer or coarser than the mean a map may be somewhere.
+_LOCAL = 0.25, 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,18 +81,18 @@ def grow_fine_wrinkles(
     that both share, whose directions, furrows and pores are taken over as they are; furrows of the neighbour grow on.
     """
     texels = texel_map(texture_map, settings.texture_size)
-    unit = max(settings.unit / texels.metres, 1.0)
     strength = _strength(texels, settings, guides)
     strip = beside[1].strip(texels) if beside else np.zeros_like(texels.mapped)
     open_texels = texels.without((strength < _BARE) | strip)
     vectors = direction_vectors(texture_map, settings, guides, beside)
-    fields = tuple(DirectionField(open_texels, field) for field in vectors)
+    texel = local_texel(texels)
+    units = np.maximum(settings.unit / texel, 1.0)
+    fields = tuple(DirectionField(open_texels, field, units) for field in vectors)
     seeds = np.random.SeedSequence(settings.seed).spawn(FIELDS + 1)
     carved = tuple(
         carve(
             field,
             LAWS[settings.laws],
-            unit=unit,
             depth=settings.depth,
             roundness=settings.roundness,
             seed=seeds[k],
@@ -102,7 +104,7 @@ def grow_fine_wrinkles(
     dimples = pores.dimples(
         open_texels,
         settings.pores * guides.pores,
-        diameter=settings.pore_size,
+        diameter=settings.pore_size / texel,
         depth=settings.pore_depth,
         rng=np.random.default_rng(seeds[FIELDS]),
     )
@@ -140,6 +142,15 @@ def direction_vectors(
             vectors = np.concatenate([vectors[outside], shared_vectors])
         fields.append(interpolate(texture_map, vertices, vectors))
     return np.stack(fields)
+
+
+def local_texel(texels: TexelMap) -> Floats:
+    """Edge of a texel on the skin at every vertex [m], (n,): furrows are of one size on the skin, however it is mapped.
+
+    The mean of the longest and the shortest way across; within bounds, since a needle at the border has no size.
+    """
+    squared = np.sqrt(np.linalg.det(vertex_metrics(texels.map)))
+    return np.sqrt(squared).clip(*(bound * texels.map.metres for bound in _LOCAL)) / texels.size
 
 
 def nearest_vertices(texture_map: TextureMap, uv: Floats) -> Ints:

@@ -67,11 +67,10 @@ class Tips:
 class Growth:
     """Grows furrows along a field by given laws."""
 
-    def __init__(self, field: DirectionField, laws: FurrowLaws, unit: float, rng: np.random.Generator) -> None:
-        """unit: of the lengths in the laws [texels]. rng: for r of theta."""
+    def __init__(self, field: DirectionField, laws: FurrowLaws, rng: np.random.Generator) -> None:
+        """rng: for r of theta."""
         self.field = field
         self.laws = laws
-        self.unit = unit
         self._random = rng.uniform(-1.0, 1.0, RANDOM_NUMBERS)
 
     def grow(self, tips: Tips) -> tuple[Segments, Tips]:
@@ -80,18 +79,21 @@ class Growth:
         A furrow ends at the edge of the mesh: what lies off it grows nothing.
         """
         # Step 1.
-        direction, magnitude, triangle = self.field.at(tips.points)
-        on_mesh = np.flatnonzero(triangle >= 0)
-        tips, direction, magnitude = tips[on_mesh], direction[on_mesh], magnitude[on_mesh]
+        sample = self.field.at(tips.points)
+        on_mesh = np.flatnonzero(sample.triangles >= 0)
+        tips, direction = tips[on_mesh], sample.directions[on_mesh]
+        magnitude, unit = sample.magnitudes[on_mesh], sample.units[on_mesh]
         law = self.laws.at(magnitude)
         # Step 2.
         left = np.minimum(tips.left, law.segments)
         # Steps 3 and 4.
         luck = self._random[(tips.luck + 2 * tips.order + tips.sides) % RANDOM_NUMBERS]
         direction = direction * np.where(tips.sides == 0, 1.0, -1.0)[:, None]
-        step = turned(direction, law.wander * luck) * (self.unit * law.length)[:, None]
+        step = turned(direction, law.wander * luck) * (unit * law.length)[:, None]
         whole = np.ones(len(left))
-        grown = Segments(tips.points, step, whole, tips.furrows, tips.sides, tips.order, left, direction, magnitude)
+        grown = Segments(
+            tips.points, step, whole, tips.furrows, tips.sides, tips.order, left, direction, magnitude, unit
+        )
         # Step 7.
         on = np.flatnonzero(left > 0)
         onward = Tips(

@@ -16,31 +16,36 @@ _SPACING = 2.6
 _CANDIDATES = 4
 # Where pores are fewer they are smaller, too: the smallest are this part of the largest.
 _SMALLEST = 0.45
+# Where pores are few their centres are at most this much farther apart, inverse.
+_SPARSEST = 0.3
 
 
 def dimples(
-    texels: TexelMap, density: Floats, *, diameter: float, depth: float, rng: np.random.Generator
+    texels: TexelMap, density: Floats, *, diameter: Floats, depth: float, rng: np.random.Generator
 ) -> NDArray[np.float32]:
     """Heights of pores over the skin, never positive [m], (size, size).
 
-    density: at every vertex, 0 none to 1 as close as pores stand on a nose, (n,). diameter, depth: of the largest [m].
+    density: at every vertex, 0 none to 1 as close as pores stand on a nose, (n,). diameter: of the largest at every
+    vertex [texels], (n,). depth: of the largest [m].
     """
     height = np.zeros((texels.size, texels.size), dtype=np.float32)
     share = texels.spread(density.clip(0, 1)).ravel()
-    spacing = _SPACING * diameter / texels.metres
+    widths = texels.spread(diameter).ravel()
     mapped = np.flatnonzero(texels.mapped)
-    count = int(_CANDIDATES * share.sum() / spacing**2)
+    # As many candidates everywhere as there are places.
+    wanted = share[mapped] / (_SPACING * widths[mapped]) ** 2
+    count = int(_CANDIDATES * wanted.sum())
     if count == 0:
         return height
-    drawn = np.searchsorted(np.cumsum(share[mapped]), rng.random(count) * share.sum(), side="right")
+    drawn = np.searchsorted(np.cumsum(wanted), rng.random(count) * wanted.sum(), side="right")
     chosen = mapped[drawn.clip(max=len(mapped) - 1)]
     points = texels.centres(chosen) + rng.uniform(-0.5, 0.5, (count, 2))
-    free = _keep_apart(points, spacing / np.sqrt(share[chosen]).clip(0.3, 1), texels)
-    points, local = points[free], share[chosen][free]
-    size = _SMALLEST + (1 - _SMALLEST) * local * rng.uniform(0.5, 1.0, len(local))
+    free = _keep_apart(points, _SPACING * widths[chosen] / np.sqrt(share[chosen]).clip(_SPARSEST, 1), texels)
+    points, chosen = points[free], chosen[free]
+    size = _SMALLEST + (1 - _SMALLEST) * share[chosen] * rng.uniform(0.5, 1.0, len(chosen))
     images = Images(height, np.zeros(height.shape, dtype=bool), texels.period)
-    widths = size * diameter / texels.metres
-    images.draw(points, np.zeros_like(points), widths, size * depth, widths, 0.0)
+    drawn_widths = size * widths[chosen]
+    images.draw(points, np.zeros_like(points), drawn_widths, size * depth, drawn_widths, 0.0)
     return height
 
 

@@ -90,6 +90,7 @@ class SharedSkin:
             left=leaving.left,
             directions=_carried(leaving.directions, theirs, mine),
             magnitudes=leaving.magnitudes,
+            units=leaving.units * np.linalg.norm(step, axis=1) / np.linalg.norm(leaving.steps, axis=1),
         )[into]
 
 

@@ -24,7 +24,8 @@ class Segments:
     starts: P, (k, 2). steps: Q - P as it was grown, (k, 2). reach: the part of the step that was carved, below 1 where
     the furrow ended on another one, (k,). furrows: which furrow each belongs to, (k,). sides: 0 along the field, 1
     against it, (k,). order: how many segments lie between it and the starting point, on its side, (k,). left: n, how
-    many segments might have followed, (k,). directions: of the field at P, unit, (k, 2). magnitudes: m there, (k,).
+    many segments might have followed, (k,). directions: of growth at P before it was turned by theta, unit, (k, 2).
+    magnitudes: m there, (k,). units: what the unit of the laws is there [texels], (k,).
     """
 
     starts: Floats
@@ -36,6 +37,7 @@ class Segments:
     left: Floats
     directions: Floats
     magnitudes: Floats
+    units: Floats
 
     def __len__(self) -> int:
         return len(self.starts)
@@ -116,7 +118,7 @@ class SegmentGrid:
         row, column = self._place(points)
         around = np.arange(-1, 2)
         cells = self._cells(row[:, None, None] + around[:, None], column[:, None, None] + around)
-        found = self._table[cells].reshape(len(points), -1)
+        found = self._table[cells].reshape(len(points), around.size**2 * self._table.shape[1])
         at, slot = np.nonzero(found >= 0)
         return at, found[at, slot]
 

@@ -76,11 +76,21 @@ class TexelMap:
 
     def spread(self, values: Floats) -> Floats:
         """Values given at the vertices, (n,), interpolated at every texel; 0 off the mesh. Shape (size, size)."""
+        corners = self.map.corner_uv * self.size
+        at_corners = values[self.map.mesh.faces]
+        start, first, second = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        rise, other_rise = at_corners[:, 1] - at_corners[:, 0], at_corners[:, 2] - at_corners[:, 0]
+        area = cross(first, second)
+        area = np.where(area == 0, np.inf, area)
+        # Each triangle is a plane over the image: a value at its first corner, and slopes along x and y.
+        slope_x = (rise * second[:, 1] - other_rise * first[:, 1]) / area
+        slope_y = (other_rise * first[:, 0] - rise * second[:, 0]) / area
+
         image = np.zeros(self.size * self.size)
         texels = np.flatnonzero(self.mapped)
-        triangles = self.triangle.ravel()[texels]
-        corners = values[self.map.mesh.faces[triangles]]
-        image[texels] = np.einsum("ij,ij->i", self.weights(triangles, self.centres(texels)), corners)
+        triangle = self.triangle.ravel()[texels]
+        offset = shorter_way(self.centres(texels) - start[triangle], self.period)
+        image[texels] = at_corners[triangle, 0] + slope_x[triangle] * offset[:, 0] + slope_y[triangle] * offset[:, 1]
         return image.reshape(self.size, self.size)
 
     def centres(self, texels: Ints) -> Floats:
