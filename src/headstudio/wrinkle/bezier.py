@@ -11,10 +11,10 @@ from ..head.mesh import Floats, Ints
 
 # From (1, t, t^2, t^3) to the weights of the four control points.
 _BASIS = np.array([[1.0, 0, 0, 0], [-3, 3, 0, 0], [3, -6, 3, 0], [-1, 3, -3, 1]])
-# How often a fit moves its points along the curve to where they are nearest.
-_REPARAMETRISATIONS = 8
-# Points that decide the tangent where a stroke is cut in two.
-_TANGENT_POINTS = 4
+# Rounds of a fit, how much a difference along the curve counts in it, and the pull that keeps it bounded.
+_ROUNDS, _SLIDING, _PULL = 24, 0.1, 1e-6
+# Points on either side that decide the tangent where a stroke is cut in two.
+_TANGENT_POINTS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,44 +112,78 @@ def _fit_pieces(points: Floats, tolerance: float, first: Floats | None, last: Fl
     """Control points of each curve, (4, 2); ``first`` and ``last`` are unit tangents at the ends where they are set."""
     if len(points) == 2:
         return [straight(points[0], points[1]).controls]
-    controls, error = _fit_one(points, first, last)
+    controls, error = _fit_one(points, first, last, tolerance)
     if error.max() <= tolerance:
         return [controls]
     worst = int(np.clip(error.argmax(), 1, len(points) - 2))
-    around = points[max(worst - _TANGENT_POINTS, 0) : worst + _TANGENT_POINTS + 1]
-    tangent = around[-1] - around[0]
-    length = np.linalg.norm(tangent)
-    tangent = tangent / length if length > 0 else np.array([1.0, 0.0])
+    tangent = _tangent(points[max(worst - _TANGENT_POINTS, 0) : worst + _TANGENT_POINTS + 1], points[worst])
     return _fit_pieces(points[: worst + 1], tolerance, first, tangent) + _fit_pieces(
         points[worst:], tolerance, tangent, last
     )
 
 
-def _fit_one(points: Floats, first: Floats | None, last: Floats | None) -> tuple[Floats, Floats]:
-    """The best single cubic through both ends, and how far it passes from every point."""
+def _tangent(around: Floats, at: Floats) -> Floats:
+    """The unit tangent of a stroke at one of its points, by a parabola through its neighbours."""
+    u = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(around, axis=0), axis=1))])
+    u -= u[np.linalg.norm(around - at, axis=1).argmin()]
+    powers = u[:, None] ** np.arange(min(len(u), 3))
+    tangent = np.linalg.lstsq(powers, around, rcond=None)[0][1]
+    length = np.linalg.norm(tangent)
+    return tangent / length if length > 0 else np.array([1.0, 0.0])
+
+
+def _fit_one(points: Floats, first: Floats | None, last: Floats | None, tolerance: float) -> tuple[Floats, Floats]:
+    """The best single cubic through both ends, and how far it passes from every point.
+
+    Points may slide along the curve: they are put where they are nearest, and what is then fitted is hardly more than
+    the distance square to the curve (Wang, Pottmann and Liu 2006).
+    """
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     u = np.concatenate([[0.0], np.cumsum(lengths)]) / lengths.sum()
-    for _ in range(_REPARAMETRISATIONS):
-        controls = _least_squares(points, u, first, last, lengths.sum())
-        c = _BASIS @ controls
-        away, along = polynomial(c[None], u) - points, slope(c[None], u)
-        bottom = np.einsum("ij,ij->i", along, along) + np.einsum("ij,ij->i", away, bend(c[None], u))
-        step = np.divide(np.einsum("ij,ij->i", away, along), bottom, out=np.zeros_like(u), where=bottom > 0)
-        u = np.clip(u - step, 0.0, 1.0)
-        u[0], u[-1] = 0.0, 1.0
-    return controls, np.linalg.norm(polynomial(c[None], u) - points, axis=1)
+    along, sliding = np.zeros_like(points), 1.0
+    best: tuple[Floats, Floats] | None = None
+    for _ in range(_ROUNDS):
+        controls = _least_squares(points, u, along, sliding, first, last, lengths.sum())
+        c = (_BASIS @ controls)[None]
+        for _ in range(2):
+            away, tangent = polynomial(c, u) - points, slope(c, u)
+            bottom = np.einsum("ij,ij->i", tangent, tangent) + np.einsum("ij,ij->i", away, bend(c, u))
+            u = u - np.divide(np.einsum("ij,ij->i", away, tangent), bottom, out=np.zeros_like(u), where=bottom > 0)
+            u = np.clip(u, 0.0, 1.0)
+            u[0], u[-1] = 0.0, 1.0
+        tangent = slope(c, u)
+        along = tangent / np.maximum(np.linalg.norm(tangent, axis=1, keepdims=True), np.finfo(float).tiny)
+        sliding = _SLIDING
+        error = np.linalg.norm(polynomial(c, u) - points, axis=1)
+        if best is None or error.max() < best[1].max():
+            best = controls, error
+        if error.max() <= 0.5 * tolerance:
+            break
+    assert best is not None
+    return best
 
 
-def _least_squares(points: Floats, u: Floats, first: Floats | None, last: Floats | None, length: float) -> Floats:
-    """Control points with the ends fixed; an inner one is free, or slides along a tangent that is set."""
+def _least_squares(
+    points: Floats, u: Floats, along: Floats, sliding: float, first: Floats | None, last: Floats | None, length: float
+) -> Floats:
+    """Control points with the ends fixed; an inner one is free, or slides along a tangent that is set.
+
+    along: unit tangents, (m, 2); differences in their direction count ``sliding`` times.
+    """
     weights = (u[:, None] ** np.arange(4)) @ _BASIS
     # Each inner control point is an anchor plus free directions: both axes, or the tangent alone.
     free = [np.eye(2) if first is None else first[None], np.eye(2) if last is None else -last[None]]
     target = points - weights[:, :2].sum(axis=1)[:, None] * points[0] - weights[:, 2:].sum(axis=1)[:, None] * points[-1]
-    columns = [np.einsum("i,kd->idk", weights[:, 1 + k], free[k]).reshape(2 * len(points), -1) for k in (0, 1)]
-    # A little pull toward thirds of the way keeps control points near when few points decide them.
-    matrix = np.concatenate([np.concatenate(columns, axis=1), 1e-6 * np.eye(len(free[0]) + len(free[1]))])
-    solution = np.linalg.lstsq(matrix, np.concatenate([target.ravel(), np.zeros(matrix.shape[1])]), rcond=None)[0]
+    directions = np.concatenate([np.broadcast_to(side, (len(points), *side.shape)) for side in free], axis=1)
+    which = np.repeat([1, 2], [len(side) for side in free])
+    columns = weights[:, which, None] * directions
+    scale = np.eye(2) - (1.0 - sliding) * along[:, :, None] * along[:, None, :]
+    matrix = np.einsum("mij,mkj->mik", scale, columns).reshape(2 * len(points), -1)
+    wanted = np.einsum("mij,mj->mi", scale, target).ravel()
+    # A little pull toward the ends keeps control points near when few points decide them.
+    unknowns = matrix.shape[1]
+    matrix, wanted = np.concatenate([matrix, _PULL * np.eye(unknowns)]), np.concatenate([wanted, np.zeros(unknowns)])
+    solution = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
     split = len(free[0])
     second, third = solution[:split] @ free[0], solution[split:] @ free[1]
     # A tangent that points backward would make a loop.

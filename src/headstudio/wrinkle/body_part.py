@@ -16,7 +16,7 @@ from ..head.repair import face_components
 Mask = NDArray[np.bool_]
 
 # The face reaches this far below the chin and above the hairline, in heights of the head: neck lines, high foreheads.
-_NECK = 0.42
+_NECK = 0.38
 _SCALP = 0.06
 # It ends this far in front of the ears [heights of the head].
 _BEFORE_EARS = 0.05
@@ -78,7 +78,7 @@ def open_to_air(head: Head) -> Mask:
         hidden = np.setdiff1d(hidden, facing[np.isinf(way)])
     dark = np.zeros(len(skin.vertices), dtype=bool)
     dark[hidden] = True
-    return ~dark[skin.faces].any(axis=1)
+    return np.asarray(~dark[skin.faces].any(axis=1), dtype=bool)
 
 
 def _fibonacci_sphere(count: int) -> Floats:
@@ -107,7 +107,8 @@ def face_part(head: Head) -> BodyPart:
     mouth = 0.5 * (marks.mouth_left + marks.mouth_right)
     below = np.clip((mouth[1] - centres[:, 1]) / (mouth[1] - marks.chin[1]), 0.0, 1.0)
     back = ears[2] + (_BEFORE_EARS - (_BEFORE_EARS + _NECK_SIDES) * below) * height
-    return body_part(head.skin, open_to_air(head) & level & (centres[:, 2] > back))
+    broad = np.abs(centres[:, 0]) < max(marks.left_tragus[0], -marks.right_tragus[0])
+    return body_part(head.skin, open_to_air(head) & level & broad & (centres[:, 2] > back))
 
 
 def head_part(head: Head) -> BodyPart:

@@ -117,7 +117,7 @@ class Creases:
 
     def _at_vertices(self, values: Floats) -> Floats:
         """Values of the entries, (i,), added up at the vertices of the fine surface, (k,)."""
-        return np.bincount(self._row, values, minlength=len(self._surface.vertices))
+        return np.bincount(self._row, values, minlength=len(self._surface.vertices)).astype(np.float64)
 
     def _whole(self, posed: Floats, normals: Floats) -> tuple[Floats, Floats, Floats]:
         """Positions, normals and heights of the whole refined skin, those of the coarse vertices filled in."""

@@ -1,7 +1,7 @@
 """The face chart: one flat face that all heads share, so that furrows move from head to head through the landmarks.
 
-The chart is the front of an average head rolled off a cylinder about the skull, which bends back into the neck: x to the person's left and y upward [m],
-both zero at the nasion. The smoothest map that takes the chart's landmarks to those of a head (polyharmonic splines) takes
+The chart is the front of an average head rolled off a cylinder about the skull, which bends back into the neck: x to the
+person's left and y upward [m], both zero at the nasion. The smoothest map that takes the chart's landmarks to those of a head (polyharmonic splines) takes
 a furrow there.
 """
 
@@ -90,7 +90,7 @@ class FaceChart:
         What lies off the face is left out: the neck of a bust may end early.
         """
         skin = self.on_skin(_sampled(furrow.chain, 1.0))
-        on_face = _longest_run(np.isfinite(skin).all(axis=1))
+        on_face = _longest_run(np.isfinite(skin[:, 0]))
         if len(on_face) < max(0.5 * len(skin), 2):
             return None
         return self.stroke_in_texture(furrow, skin[on_face])

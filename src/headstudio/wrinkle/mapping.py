@@ -19,6 +19,8 @@ METHODS = ("planar", "cylindrical", "uv")
 
 # Empty border around what is mapped, as a part of the unit square.
 _MARGIN = 0.02
+# From the nape to the middle of the neck [heights of the head].
+_NECK_RADIUS = 0.25
 
 
 def map_to_texture(
@@ -63,18 +65,21 @@ def map_to_texture(
 @lru_cache(maxsize=2)
 def map_face(head: Head) -> tuple[BodyPart, TextureMap]:
     """The face of a head, rolled off a cylinder about the skull and relaxed."""
-    part = face_part(head)
-    return part, map_to_texture(part.mesh, "cylindrical", axis=_skull_axis(head))
+    # The axis runs through the middle of neck and skull: it leans forward, as heads do.
+    part, skull, marks = face_part(head), _between_ears(head), head.landmarks
+    height = marks.crown[1] - marks.chin[1]
+    neck = np.array([0.0, marks.nape[1], marks.nape[2] + _NECK_RADIUS * height])
+    return part, map_to_texture(part.mesh, "cylindrical", axis=skull, along=skull - neck)
 
 
 @lru_cache(maxsize=2)
 def map_head(head: Head) -> tuple[BodyPart, TextureMap]:
     """All the skin of a head but the crown, rolled off a cylinder; the seam runs down behind and wraps around."""
     part = head_part(head)
-    return part, map_to_texture(part.mesh, "cylindrical", axis=_skull_axis(head))
+    return part, map_to_texture(part.mesh, "cylindrical", axis=_between_ears(head))
 
 
-def _skull_axis(head: Head) -> Floats:
+def _between_ears(head: Head) -> Floats:
     ears = 0.5 * (head.landmarks.left_tragus + head.landmarks.right_tragus)
     return np.array([0.0, ears[1], ears[2]])
 

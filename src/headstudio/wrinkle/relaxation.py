@@ -18,7 +18,7 @@ from scipy.sparse.linalg import splu
 
 from ..head.harmonic import mean_value_weights
 from ..head.mesh import Floats, Ints, TriangleMesh
-from .one_to_one import why_not_one_to_one
+from .one_to_one import signed_areas, why_not_one_to_one
 from .projection import Layout, TextureMapError, border_cycles, loop_steps, winding
 
 # How strongly the k-th wave of the border is flattened, by 1 / (1 + smoothing k^2), in the order they are tried.
@@ -36,8 +36,11 @@ class Relaxed:
 def relax(mesh: TriangleMesh, layout: Layout) -> Relaxed:
     """Minimise the energy of the springs along the edges, the border fixed as far as it can be.
 
-    Raises TextureMapError when the triangles are so thin that rounding defeats even the safe form.
+    Raises TextureMapError for a layout that shows the surface from inside, and when the triangles are so thin that
+    rounding defeats even the safe form.
     """
+    if signed_areas(layout.corners(mesh.faces)).sum() < 0:
+        raise TextureMapError("this part of the body shows its inside; look at it from the other side")
     filled, turns = _with_holes_filled(mesh, layout)
     solvers = {
         "harmonic": _solver(filled, turns, harmonic_weights),

@@ -91,7 +91,7 @@ def shrinkage_gauge(
     start, second, third = (rest[corners[..., k]] for k in range(3))
     edges = np.stack([np.linalg.norm(second - start, axis=2), np.linalg.norm(third - start, axis=2)], axis=2)
     lengths = np.linalg.norm(share[..., None] * second + (1 - share[..., None]) * third - start, axis=2)
-    found = np.isfinite(inside).any(axis=0)
+    found = np.isfinite(inside.max(axis=0))
     if skin_vertices is not None:
         corners = skin_vertices[corners]
     count = len(rest) if skin_count is None else skin_count
