@@ -93,7 +93,7 @@ class Builder:
         ]
         if not faces:
             return hairdo
-        joined = self._part("hair", (hairdo, *faces), lambda: join_strands([h.strands for h in (hairdo, *faces)]))
+        joined = self._part("joined hair", (hairdo, *faces), lambda: join_strands([h.strands for h in (hairdo, *faces)]))
         return replace(hairdo, strands=joined)
 
     def _facial_hair(self, document: Document, patch: FacialPatch, stands_for: float) -> Hairdo:
