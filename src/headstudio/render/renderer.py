@@ -12,8 +12,9 @@ from .body import Body, BodyPrograms
 from .fibre import Fibre, colour_absorption
 from .hair import Hair, HairPrograms
 from .overlays import OverlayPass
-from .scene_block import SCENE_DTYPE, linear, scene_block
+from .scene_block import SCENE_DTYPE, linear, scene_block, sky_and_ground
 from .screen import ScreenPasses
+from .sky_light import Sky, SkyLight, SkyPrograms
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
 from .timing import StageTimer
@@ -34,6 +35,8 @@ class Renderer:
         self._hair_programs = HairPrograms(context)
         self._strand_programs = StrandPrograms(context)
         self._overlays = OverlayPass(context)
+        self._sky_programs = SkyPrograms(context)
+        self._sky_in: tuple[object, ...] | None = None
         self._screens = ScreenPasses(context, "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | None = None
@@ -100,6 +103,7 @@ class Renderer:
             self._shed_light(hair, light, look, maps)
             if strands is not None:
                 strands.shed_light(light, stage.frame, maps, look.shadow_size)
+                self._let_sky_in(strands, stage, look)
         maps.depth.use(0)
         maps.map.use(1)
         self._hair_programs.strands.seen(view, float(view.depth(stage.frame.translation)), targets.scene.height).use(2)
@@ -135,6 +139,26 @@ class Renderer:
         if known is None or not known.suits(stage.strands, look.strands_shown):
             self._strands = StrandHair(self.context, self._strand_programs, stage.strands, look.strands_shown)
         return self._strands
+
+    def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
+        """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
+        material = strand_material(look)
+        wanted = (strands, look.ambient, material.absorption, look.strand_roughness)
+        if self._sky_in == wanted:
+            return
+        skin = stage.head.skin
+        low, high = skin.bounds
+        centre = (low + high) / 2
+        radius = max(float(np.linalg.norm(high - low)) / 2, strands.reach + float(np.linalg.norm(centre)))
+        sky_light = SkyLight(self.context, self._sky_programs, self._strand_programs.opacity, skin.vertices, skin.faces)
+        strands.see_from_sky(sky_light, centre, radius)
+        lost = strands.lost(material)
+        sky = Sky(*sky_and_ground(look), np.array([0.0, 1.0, 0.0]))
+        sky_light.see_body(
+            linear(look.skin_colour) / np.pi * np.pi * 0.5 * np.broadcast_to(sky.above, skin.vertices.shape)
+        )
+        strands.take_soft_light(sky_light, sky, lost)
+        self._sky_in = wanted
 
     def _light(self, stage: Stage, look: Look, hair: Hair | None, strands: StrandHair | None) -> View:
         low, high = stage.head.skin.bounds

@@ -37,6 +37,11 @@ def linear(srgb: tuple[float, float, float]) -> Floats:
     return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
 
 
+def sky_and_ground(look: Look) -> tuple[Floats, Floats]:
+    """Radiance of the sky from above and from below, linear RGB, (3,) each."""
+    return look.ambient * _SKY_TINT, look.ambient * _GROUND_TINT
+
+
 def scene_block(camera: View, light: View, frame: HeadFrame, look: Look) -> NDArray[np.void]:
     """The block for one frame, shape (1,)."""
     block = np.zeros(1, SCENE_DTYPE)
@@ -46,8 +51,7 @@ def scene_block(camera: View, light: View, frame: HeadFrame, look: Look) -> NDAr
     block["eye"][0, :3] = camera.eye
     block["to_light"][0, :3] = -light.forward
     block["radiance"][0, :3] = look.light_strength / np.pi * _LIGHT_TINT
-    block["sky"][0, :3] = look.ambient * _SKY_TINT
-    block["ground"][0, :3] = look.ambient * _GROUND_TINT
+    block["sky"][0, :3], block["ground"][0, :3] = sky_and_ground(look)
     block["head_turn"][0, :3] = frame.rotation.as_rotvec()
     block["head_shift"][0, :3] = frame.translation
     block["shadow"][0] = float(look.shadows), light.far, camera.near, camera.far
