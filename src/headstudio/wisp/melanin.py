@@ -21,7 +21,7 @@ NATURAL: Mapping[str, tuple[float, float]] = {
     "brown": (0.5, 0.12),
     "light brown": (0.26, 0.1),
     "auburn": (0.18, 0.8),
-    "red": (0.01, 0.75),
+    "red": (0.005, 0.55),
     "strawberry blonde": (0.02, 0.3),
     "dark blonde": (0.14, 0.09),
     "blonde": (0.06, 0.07),
