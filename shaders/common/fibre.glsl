@@ -46,11 +46,11 @@ vec3 around_hair(sampler3D table, float phi, float sin_out, vec3 absorption, vec
                 dot(along, textureLod(table, vec3(at, texel_place(place.b, count)), 0.0)));
 }
 
-// Of the light at this inclination: what goes on forward, what comes back, and the integral of the lobes times cos(phi).
-mat3 albedo(float sine, vec3 absorption) {
+// Of the light at this inclination: what goes on forward, what comes back, and the same two times cos(phi).
+mat4x3 albedo(float sine, vec3 absorption) {
     int count = textureSize(albedo_table, 0).y;
     vec3 place = coded(absorption);
-    return transpose(mat3(textureLod(albedo_table, vec2(abs(sine), texel_place(place.r, count)), 0.0).rgb,
-                          textureLod(albedo_table, vec2(abs(sine), texel_place(place.g, count)), 0.0).rgb,
-                          textureLod(albedo_table, vec2(abs(sine), texel_place(place.b, count)), 0.0).rgb));
+    return transpose(mat3x4(textureLod(albedo_table, vec2(abs(sine), texel_place(place.r, count)), 0.0),
+                            textureLod(albedo_table, vec2(abs(sine), texel_place(place.g, count)), 0.0),
+                            textureLod(albedo_table, vec2(abs(sine), texel_place(place.b, count)), 0.0)));
 }

@@ -12,7 +12,7 @@ uniform bool coloured;         // every point has a colour of its own
 uniform vec3 hair_absorption;  // else: per radius
 uniform float colour_slope;
 uniform bool fibre_model;      // Marschner's lobes, or Kajiya and Kay's
-uniform vec2 kajiya_gloss;
+uniform float widening;
 out vec4 radiance_;
 
 vec3 absorption_at(ivec2 texel) {
@@ -26,6 +26,20 @@ float azimuth_between(vec3 along, vec3 a, vec3 b) {
     return acos(clamp(dot(u, v) / max(length(u) * length(v), 1e-6), -1.0, 1.0));
 }
 
+// Strands one behind the other as a pile of plates (Stokes 1862), which pass on `forward` and send `back`: what a pile
+// without end sends back, and by what light grows less from strand to strand.
+void pile(vec3 forward, vec3 back, out vec3 endless, out vec3 passed) {
+    vec3 s = 1.0 + back * back - forward * forward;
+    endless = 2.0 * back / (s + sqrt(max(s * s - 4.0 * back * back, 0.0)));
+    passed = forward / (1.0 - back * endless);
+}
+
+// What comes back from a strand and `behind` others further in, less what comes back from itself.
+vec3 sent_back(vec3 back, vec3 endless, vec3 passed, float behind) {
+    vec3 both_ways = pow(passed, vec3(2.0 * (1.0 + behind)));
+    return max(endless * (1.0 - both_ways) / (1.0 - endless * endless * both_ways) - back, 0.0);
+}
+
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     vec3 place = turned(texelFetch(points, texel, 0).xyz, head_turn.xyz) + head_shift.xyz;
@@ -36,23 +50,32 @@ void main() {
     float phi = azimuth_between(along, to_light.xyz, to_eye);
 
     vec3 at = light_box(place);
-    float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at);
+    float width = 2.0 * texelFetch(points, texel, 0).w * widening * float(textureSize(near_counts, 0).x) / shadow.y;
+    float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at, 0.75 * min(width, 1.0));
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
-    vec3 forward = albedo(sin_in, absorption)[0];
+    mat4x3 sent_in = albedo(sin_in, absorption);
+    vec3 endless, passed;
+    pile(sent_in[0], sent_in[1], endless, passed);
+    float behind = hair_crossed(vec3(at.xy, at.z + 0.05 / shadow.y)) - crossed;
     float direct = exp(-crossed);
-    vec3 scattered = exp(-crossed * (1.0 - forward)) - direct;
+    vec3 scattered = (exp(-crossed * (1.0 - passed)) - direct);
 
     vec3 seen = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)));
     vec4 wider = vec4(min(crossed, 8.0) * variances.y);
     seen += scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider));
+    seen += (direct + scattered) * sent_back(sent_in[1], endless, passed, behind) / 3.14159265
+        * along_hair(sin_in, sin_out, vec4(0.1)).z * step(0.0, cos(phi)) ;
     seen *= 3.14159265 * radiance.rgb * lit;
 
     mat4x3 soft = soft_light(texelFetch(points, texel, 0).xyz);
-    mat3 sent = albedo(sin_out, absorption);
+    mat4x3 sent = albedo(sin_out, absorption);
+    pile(sent[0], sent[1], endless, passed);
     vec3 aside = to_eye - along * sin_out;
     vec3 mirrored = turned(-sin_out * along, -head_turn.xyz), towards = turned(aside, -head_turn.xyz);
     vec3 slope_along = mat3(soft[1], soft[2], soft[3]) * mirrored;
     vec3 slope_aside = mat3(soft[1], soft[2], soft[3]) * towards;
-    seen += max((sent[0] + sent[1]) * (soft[0] + slope_along) + sent[2] * slope_aside, 0.0);
+    vec3 level = soft[0] + slope_along;
+    seen += max(sent[0] * level + sent[2] * slope_aside, 0.0) + max(sent[1] * level + sent[3] * slope_aside, 0.0);
+    seen += sent_back(sent[1], endless, passed, behind) * max(level + 0.6366 * slope_aside, 0.0);
     radiance_ = vec4(seen, 1.0);
 }

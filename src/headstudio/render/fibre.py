@@ -153,8 +153,8 @@ class FibreTables:
 
     around: A times N, (ABSORPTIONS, SINES, AZIMUTHS, LOBES). spread: the same for light that comes from anywhere within a
     quarter turn of the light's azimuth, as it does after many hairs. albedo: of the light that
-    is met, the part that goes on forward, the part that comes back, and the integral of the lobes times cos(phi),
-    (ABSORPTIONS, SINES, 3).
+    is met, the part that goes on forward and the part that comes back, and the integral over each half of the
+    lobes times cos(phi), (ABSORPTIONS, SINES, 4).
     """
 
     around: Floats
@@ -173,18 +173,26 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
     near = np.arange(AZIMUTHS)[:, None] + np.arange(-quarter, quarter) + (np.arange(2 * quarter) >= quarter)
     folded = np.where(near < 0, -1 - near, np.where(near >= AZIMUTHS, 2 * AZIMUTHS - 1 - near, near))
     spread = np.einsum("asjl,ij->asil", around, np.eye(AZIMUTHS)[folded].mean(axis=1), optimize=True)
-    step = 2 * np.pi / AZIMUTHS
-    back = around[:, :, :quarter].sum(axis=(2, 3)) * step
-    forward = around[:, :, quarter:].sum(axis=(2, 3)) * step
-    towards = (around.sum(axis=3) * np.cos(phi)).sum(axis=2) * step
-    return FibreTables(around, spread, np.stack([forward, back, towards], axis=-1))
+    lobes = around.sum(axis=3) * (2 * np.pi / AZIMUTHS)
+    halves = [
+        (lobes * weight)[:, :, half].sum(axis=2)
+        for weight in (1.0, np.cos(phi))
+        for half in (np.s_[quarter:], np.s_[:quarter])
+    ]
+    return FibreTables(around, spread, np.stack(halves, axis=-1))
 
 
-def forward_albedo(tables: FibreTables, absorption: Floats) -> Floats:
-    """The part of light that goes on forward behind a strand of this absorption, RGB, (3,), at a middling inclination."""
+def passed_on(tables: FibreTables, absorption: Floats) -> Floats:
+    """By what light grows less from strand to strand, RGB, (3,), at a middling inclination.
+
+    Strands one behind the other are a pile of plates (Stokes 1862) which pass on ``forward`` and send ``back``.
+    """
     coded = absorption / (1 + absorption)
     place = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)
-    return np.interp(coded, place, tables.albedo[:, SINES // 2, 0])
+    forward, back = (np.interp(coded, place, tables.albedo[:, SINES // 2, part]) for part in (0, 1))
+    s = 1 + back**2 - forward**2
+    endless = 2 * back / (s + np.sqrt(np.maximum(s**2 - 4 * back**2, 0.0)))
+    return forward / (1 - back * endless)
 
 
 def _bravais(sin_out: Floats, index: float) -> Floats:

@@ -12,7 +12,7 @@ from ..head.mesh import Floats
 from ..wisp.strands import Strands
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
-from .fibre import Fibre, FibreTables, colour_absorption, colour_slope, fibre_tables, forward_albedo
+from .fibre import Fibre, FibreTables, colour_absorption, colour_slope, fibre_tables, passed_on
 from .light_volume import LightVolume, grid_around
 from .receivers import receive
 from .screen import ScreenPasses
@@ -116,7 +116,7 @@ class StrandHair:
         absorption = np.array(material.absorption)
         if self._mean_colour is not None:
             absorption = colour_absorption(self._mean_colour, material.fibre.radial_roughness)
-        return 1.0 - forward_albedo(self._tables, absorption)
+        return 1.0 - passed_on(self._tables, absorption)
 
     def sunlit(self, places: Floats, maps: LightTargets, lost: Floats) -> Floats:
         """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3): RGB, (n, 3)."""
@@ -143,6 +143,7 @@ class StrandHair:
         uniforms = {
             "shadow_map": 0, "light_map": 1, "points": 2, "tangents": 3, "hair_colours": 4,
             "around_table": 5, "spread_table": 6, "albedo_table": 7,
+            "widening": self.widening,
             "coloured": textures.colour is not None,
             "hair_absorption": material.absorption,
             "colour_slope": colour_slope(fibre.radial_roughness),
