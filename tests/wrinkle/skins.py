@@ -99,7 +99,7 @@ def line_between(start: tuple[float, float], end: tuple[float, float], **values:
     return replace(furrow, **values)
 
 
-def covering_counts(texture_map: TextureMap, work: int = 4_000_000, seed: int = 1) -> np.ndarray:
+def covering_counts(texture_map: TextureMap, work: int = 1_500_000, seed: int = 1) -> np.ndarray:
     """How many triangles cover random points within triangles of the map, by looking at every triangle for each."""
     rng = np.random.default_rng(seed)
     count = min(2000, work // len(texture_map.corner_uv))
@@ -111,7 +111,7 @@ def covering_counts(texture_map: TextureMap, work: int = 4_000_000, seed: int = 
     covered = np.zeros(count, dtype=int)
     for shift in shifts:
         for batch in range(0, count, 50):
-            away = corners[None] - (points[batch : batch + 50] + [shift, 0.0])[:, None, None]
+            away = corners[None] - (points[batch : batch + 50] + np.array([shift, 0.0]))[:, None, None]
             ahead = np.roll(away, -1, axis=2)
             covered[batch : batch + 50] += (
                 ((away[..., 0] * ahead[..., 1] - away[..., 1] * ahead[..., 0]) > 0).all(axis=2).sum(axis=1)

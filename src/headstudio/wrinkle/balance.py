@@ -9,26 +9,34 @@ from .furrow_bed import FurrowBed
 from .smooth_surface import PosedSurface, SmoothSurface, cross
 
 # A furrow that runs along a border has no room for one of its bulges; the other does not grow without bounds.
-_BOUNDS = (0.8, 1.25)
+_MOST = 0.2
 
 
-def balanced(bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> Floats:
-    """Heights at full amplitude [m], (i,), with the bulges of every furrow scaled so that it displaces no volume at rest.
+def balance(bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> tuple[Floats, Floats]:
+    """How much higher bulges must be for no volume to be displaced at rest, as a part: c0 + c1 M at amplitude M.
 
-    The factor is within 0.8 and 1.25, and some hundredths from 1 on a mesh that is fine enough for its furrows.
+    unit_height: at full amplitude [m], (i,). Returns c0 and c1 of every entry of the bed, (i,), zero below the skin. On a
+    plane c1 is zero; on curved skin an outward displacement M h makes room for H (M h)^2 more than an inward one, H the
+    mean curvature. Each is within a fifth, and some hundredths on a mesh that is fine enough for its furrows.
     """
     rest = surface.at(bed.layout.skin.vertices)
     row = surface.row_of[bed.vertex]
-    heights = unit_height.copy()
+    constant, linear = np.zeros_like(unit_height), np.zeros_like(unit_height)
     for k in range(len(bed.furrows)):
         own = np.flatnonzero(bed.furrow == k)
-        bulge = own[unit_height[own] > 0]
-        whole = _volume(bed, surface, rest, row[own], unit_height[own])
-        raised = _volume(bed, surface, rest, row[own], np.where(unit_height[own] > 0, 1.01, 1.0) * unit_height[own])
-        gain = (raised - whole) / 0.01
+        heights, raised = unit_height[own], unit_height[own] > 0
+
+        def volume(scale: float, bulge: float, own=own, heights=heights, raised=raised) -> float:
+            return _volume(bed, surface, rest, row[own], scale * np.where(raised, bulge, 1.0) * heights)
+
+        whole, half = volume(1.0, 1.0), volume(0.5, 1.0)
+        gain = (volume(1.0, 1.01) - whole) / 0.01
         if gain > 0:
-            heights[bulge] *= np.clip(1.0 - whole / gain, *_BOUNDS)
-    return heights
+            # V(M) = a M + b M^2, and the bulges give M gain for each part they are raised by.
+            first, second = -(4 * half - whole) / gain, -(2 * whole - 4 * half) / gain
+            constant[own[raised]] = np.clip(first, -_MOST, _MOST)
+            linear[own[raised]] = np.clip(second, -_MOST, _MOST)
+    return constant, linear
 
 
 def _volume(bed: FurrowBed, surface: SmoothSurface, rest: PosedSurface, rows: np.ndarray, heights: Floats) -> float:

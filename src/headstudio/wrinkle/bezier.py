@@ -111,7 +111,13 @@ def fit_stroke(points: Floats, tolerance: float) -> BezierChain:
 def _fit_pieces(points: Floats, tolerance: float, first: Floats | None, last: Floats | None) -> list[Floats]:
     """Control points of each curve, (4, 2); ``first`` and ``last`` are unit tangents at the ends where they are set."""
     if len(points) == 2:
-        return [straight(points[0], points[1]).controls]
+        third = np.linalg.norm(points[1] - points[0]) / 3
+        middle = straight(points[0], points[1]).controls
+        if first is not None:
+            middle[1] = points[0] + third * first
+        if last is not None:
+            middle[2] = points[1] - third * last
+        return [middle]
     controls, error = _fit_one(points, first, last, tolerance)
     if error.max() <= tolerance:
         return [controls]

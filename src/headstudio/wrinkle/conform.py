@@ -41,32 +41,36 @@ def conform(
     faces = _faces_near(refined, layout, furrow)
     near = np.unique(refined.faces[faces])
     beside = furrow.beside(layout.uv(refined, near), layout.metrics(refined, near))
+    uv = np.full((len(fixed), 2), np.nan)
+    uv[near] = furrow.whole(layout.uv(refined, near))
     signed, target = np.zeros(len(fixed)), np.full((len(fixed), 2), np.nan)
     useful = np.zeros(len(fixed), dtype=bool)
     signed[near] = beside.side * beside.distance - offset
     useful[near] = beside.inside & (beside.fade > _FAINT) & ((beside.side * offset > 0) | (offset == 0))
-    target[near] = furrow.beside_curve(beside, layout.uv(refined, near), abs(offset))
+    target[near] = furrow.beside_curve(beside, uv[near], abs(offset))
 
     shortest = _shortest_edges(refined, faces)
     wanted = near[(np.abs(signed[near]) < _SNAP * shortest[near]) & useful[near] & ~fixed[near]]
-    refined, snapped = _slide(refined, layout, furrow, faces, wanted, target)
-    on_curve = np.zeros(len(fixed), dtype=bool)
-    on_curve[snapped] = True
+    moved = _movable(refined.faces[faces], uv, target, np.setdiff1d(wanted, np.flatnonzero(_rim(refined, faces))))
+    uv[moved] = target[moved]
+    refined = refined.moved(moved, *layout.place(uv[moved]))
+    on_line = np.zeros(len(fixed), dtype=bool)
+    on_line[moved] = True
 
     edges, near_edge_of = unique_edges(refined.faces[faces])
     a, b = edges.T
-    crossed = useful[a] & useful[b] & (signed[a] * signed[b] < 0) & ~on_curve[a] & ~on_curve[b]
+    crossed = useful[a] & useful[b] & (signed[a] * signed[b] < 0) & ~on_line[a] & ~on_line[b]
     # Two sides of a fold are far apart along the curve, or farther from it than the edge is long.
     length = np.linalg.norm(refined.vertices[a] - refined.vertices[b], axis=1)
     crossed &= np.abs(signed[a]) + np.abs(signed[b]) < 1.5 * length
-    fraction = np.divide(np.abs(signed[a]), np.abs(signed[a]) + np.abs(signed[b]), out=np.zeros(len(a)), where=crossed)
-    crossed &= (fraction > _CUT) & (fraction < 1 - _CUT)
-    if crossed.any():
-        edge_of = np.full(refined.faces.shape, -1)
-        edge_of[faces] = np.where(crossed, np.cumsum(crossed) - 1, -1)[near_edge_of]
-        refined = refined.split(edge_of, edges[crossed], fraction[crossed])
+    part = np.divide(np.abs(signed[a]), np.abs(signed[a]) + np.abs(signed[b]), out=np.zeros(len(a)), where=crossed)
+    crossed &= (part > _CUT) & (part < 1 - _CUT)
+    edge_of = np.full(refined.faces.shape, -1)
+    edge_of[faces] = np.where(crossed, np.cumsum(crossed) - 1, -1)[near_edge_of]
+    part = part[crossed, None]
+    refined = refined.split(edge_of, *layout.place((1 - part) * uv[a[crossed]] + part * uv[b[crossed]]))
     added = np.ones(len(refined.home) - len(fixed), dtype=bool)
-    return refined, np.concatenate([fixed | on_curve, added])
+    return refined, np.concatenate([fixed | on_line, added])
 
 
 def _faces_near(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow) -> Ints:
@@ -90,37 +94,17 @@ def _shortest_edges(refined: RefinedMesh, faces: Ints) -> Floats:
     return shortest
 
 
-def _slide(
-    refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, faces: Ints, wanted: Ints, target: Floats
-) -> tuple[RefinedMesh, Ints]:
-    """Move ``wanted`` vertices to ``target``, (N, 2), but for those that would turn a triangle over; and which were."""
-    corners = refined.faces[faces]
-    uv, weights = layout.face_uv(refined, faces)
-    uv = np.stack([layout.whole(uv[:, k], float(furrow.chain.controls[:, 0].mean())) for k in range(3)], axis=1)
-    before = signed_areas(uv)
-    moving = np.zeros(len(refined.home), dtype=bool)
+def _movable(corners: Ints, uv: Floats, target: Floats, wanted: Ints) -> Ints:
+    """Those of the ``wanted`` vertices that can go to their ``target``, (N, 2), without turning a triangle over."""
+    before = signed_areas(uv[corners])
+    moving = np.zeros(len(uv), dtype=bool)
     moving[wanted] = True
-    # A vertex on the rim of the mapped part would pull triangles along that are not looked at.
-    moving[_rim(refined, faces)] = False
     while True:
-        after = signed_areas(np.where(moving[corners][..., None], target[corners], uv))
+        after = signed_areas(np.where(moving[corners][..., None], target[corners], uv[corners]))
         spoilt = moving[corners] & (after < _LEFT * before)[:, None]
         if not spoilt.any():
-            break
+            return np.flatnonzero(moving)
         moving[corners[spoilt]] = False
-
-    # The new place lies in one of the triangles around the vertex: the one that holds it best.
-    face, place = np.nonzero(moving[corners])
-    vertex = corners[face, place]
-    local = _barycentric(target[vertex], uv[face])
-    order = np.lexsort((local.min(axis=1), vertex))
-    last = np.flatnonzero(np.append(np.diff(vertex[order]) > 0, len(order) > 0))
-    best = order[last]
-    inside = np.clip(local[best], 0.0, 1.0)
-    inside /= inside.sum(axis=1, keepdims=True)
-    home = refined.parent[faces[face[best]]]
-    places = np.einsum("kc,kci->ki", inside, weights[face[best]])
-    return refined.moved(vertex[best], home, places), vertex[best]
 
 
 def _rim(refined: RefinedMesh, faces: Ints) -> Mask:
@@ -132,14 +116,3 @@ def _rim(refined: RefinedMesh, faces: Ints) -> Mask:
     rim = some != np.bincount(refined.faces.ravel(), minlength=count)
     rim[border] = True
     return rim
-
-
-def _barycentric(points: Floats, triangles: Floats) -> Floats:
-    """Barycentric coordinates, (k, 3), of points, (k, 2), in triangles, (k, 3, 2); negative outside."""
-    whole = signed_areas(triangles)
-    parts = []
-    for k in range(3):
-        piece = triangles.copy()
-        piece[:, k] = points
-        parts.append(signed_areas(piece) / whole)
-    return np.stack(parts, axis=1)

@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints, TriangleMesh
-from .balance import balanced
+from .balance import balance
 from .blending import Blending
 from .furrow import Furrow
 from .furrow_bed import FurrowBed
@@ -76,9 +76,9 @@ class Creases:
         height = beside.fade * profile
         slope = beside.fade * bounded_slope(beside.distance, depth, width)
         gradient = slope[:, None] * beside.toward + profile[:, None] * beside.along
-        self._height = balanced(bed, self._surface, height)
-        scale = np.divide(self._height, height, out=np.ones_like(height), where=height > 0)
-        self._by_u, self._by_v = (scale * gradient[:, k] for k in (0, 1))
+        raised, self._raised_more = balance(bed, self._surface, height)
+        self._height = (1.0 + raised) * height
+        self._by_u, self._by_v = ((1.0 + raised) * gradient[:, k] for k in (0, 1))
         self._blending = Blending(self._row, self._height)
         self._folds = Folds(bed, self._surface, self._height) if self_contact else None
         self._gauge, self._spread = _gauge_beside(bed, measure)
@@ -94,7 +94,7 @@ class Creases:
         share = self._blending.applied(grown)
         surface = self._surface.at(posed)
 
-        height = self._at_vertices(share * self._height)
+        height = self._at_vertices(share * (1.0 + grown * self._raised_more) * self._height)
         # Like other directions, slopes need no more than single precision.
         by_u, by_v = (
             self._at_vertices(share * slope).astype(np.float32)[:, None] for slope in (self._by_u, self._by_v)

@@ -81,14 +81,14 @@ class LaidFurrow:
     def beside_curve(self, beside: Beside, uv: Floats, distance: float) -> Floats:
         """Points, (k, 2), that lie where ``uv`` do but at another distance from the curve [m]."""
         foot = self.chain.at(beside.t)
-        return foot + (self._whole(uv) - foot) * (distance / np.maximum(beside.distance, _TINY))[:, None]
+        return foot + (self.whole(uv) - foot) * (distance / np.maximum(beside.distance, _TINY))[:, None]
 
     def beside(self, uv: Floats, metrics: Floats) -> Beside:
         """Where points of texture space, (k, 2), lie beside the furrow. metrics: G there, (k, 2, 2).
 
         Lengths are measured with the mean of G at the point and at the curve.
         """
-        places = self._whole(uv)
+        places = self.whole(uv)
         first = nearest_on_curve(self.chain, places, metrics)
         mean = 0.5 * (metrics + self._metrics_at(first.t))
         found = slid_to_nearest(self.chain, places, mean, first.t)
@@ -110,9 +110,10 @@ class LaidFurrow:
 
     def mirrored(self, t: Floats, uv: Floats) -> Floats:
         """Points, (k, 2), as far on the other side of the curve as ``uv`` are, whose nearest points are at t, (k,)."""
-        return 2 * self.chain.at(t) - self._whole(uv)
+        return 2 * self.chain.at(t) - self.whole(uv)
 
-    def _whole(self, uv: Floats) -> Floats:
+    def whole(self, uv: Floats) -> Floats:
+        """Texture coordinates, (k, 2), with whole turns added so that they lie near the furrow."""
         return self.layout.whole(uv, float(self.chain.controls[:, 0].mean()))
 
     def _metrics_at(self, t: Floats) -> Floats:

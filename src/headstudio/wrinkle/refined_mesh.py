@@ -13,10 +13,10 @@ from ..head.mesh import Floats, Ints, TriangleMesh
 
 @dataclass(frozen=True, eq=False)
 class RefinedMesh:
-    """Triangles within the triangles of a coarse mesh, sharing every edge: no cracks and no T-junctions.
+    """Triangles that cover a coarse mesh, sharing every edge: no cracks and no T-junctions.
 
     coarse: n vertices, m triangles; its vertices come first and in order. home: the coarse triangle that each vertex lies
-    in, (N,). weights: where in it, (N, 3). faces: (M, 3). parent: the coarse triangle that each of them lies in, (M,).
+    in, (N,). weights: where in it, (N, 3). faces: (M, 3). parent: the coarse triangle that each of them comes from, (M,).
     vertices: positions on the flat coarse triangles [m], (N, 3).
     """
 
@@ -57,31 +57,31 @@ class RefinedMesh:
         matrix.eliminate_zeros()
         return matrix
 
-    def weights_in(self, vertices: Ints, triangles: Ints) -> Floats:
-        """The weights of vertices, (...), in coarse triangles, (...), that they touch: (..., 3)."""
-        theirs, wanted = self.coarse.faces[self.home[vertices]], self.coarse.faces[triangles]
-        return np.einsum("...i,...ij->...j", self.weights[vertices], theirs[..., :, None] == wanted[..., None, :])
+    def between(self, edges: Ints, edge_of: Ints) -> tuple[Ints, Floats]:
+        """The middles of edges, (e, 2): a coarse triangle that holds each, (e,), and where in it, (e, 3).
 
-    def split(self, edge_of: Ints, edges: Ints, fraction: Floats) -> RefinedMesh:
-        """The mesh with a new vertex on some of its edges.
-
-        edges: their ends, (e, 2). fraction: where along them, (e,). edge_of: for the edges 0-1, 1-2 and 2-0 of every
-        triangle which of these it is, or -1, (M, 3).
+        edge_of: which edge the sides 0-1, 1-2 and 2-0 of every triangle are, -1 for others, (M, 3). Only for a mesh whose
+        triangles lie within their parents, as they do until vertices are moved.
         """
-        count = len(self.home)
-        # Every edge has some triangle; its parent holds both ends.
-        owner = np.empty(len(edges), dtype=np.int64)
+        home = np.empty(len(edges), dtype=np.int64)
         has = edge_of >= 0
-        owner[edge_of[has]] = np.broadcast_to(self.parent[:, None], edge_of.shape)[has]
-        part = fraction[:, None]
-        weights = (1 - part) * self.weights_in(edges[:, 0], owner) + part * self.weights_in(edges[:, 1], owner)
-        vertices = np.concatenate([self.vertices, self._places(owner, weights)])
-        middle = np.where(has, count + edge_of, -1)
-        cut = has.any(axis=1)
+        home[edge_of[has]] = np.broadcast_to(self.parent[:, None], edge_of.shape)[has]
+        theirs, wanted = self.coarse.faces[self.home[edges]], self.coarse.faces[home]
+        same = theirs[:, :, :, None] == wanted[:, None, None, :]
+        return home, 0.5 * np.einsum("eki,ekij->ej", self.weights[edges], same)
+
+    def split(self, edge_of: Ints, home: Ints, weights: Floats) -> RefinedMesh:
+        """The mesh with a new vertex on some of its edges, at ``weights`` in the coarse triangles ``home``, (e,).
+
+        edge_of: for the edges 0-1, 1-2 and 2-0 of every triangle which of these it is, or -1, (M, 3).
+        """
+        vertices = np.concatenate([self.vertices, self._places(home, weights)])
+        middle = np.where(edge_of >= 0, len(self.home) + edge_of, -1)
+        cut = (edge_of >= 0).any(axis=1)
         faces, source = _split_triangles(self.faces[cut], middle[cut], vertices)
         return RefinedMesh(
             self.coarse,
-            np.concatenate([self.home, owner]),
+            np.concatenate([self.home, home]),
             np.concatenate([self.weights, weights]),
             np.concatenate([self.faces[~cut], faces]),
             np.concatenate([self.parent[~cut], self.parent[cut][source]]),

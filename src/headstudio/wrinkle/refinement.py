@@ -51,7 +51,7 @@ def refine_around(mesh: TriangleMesh, lines: Sequence[FurrowLine], fineness: flo
             break
         marked = _longest_first(marked, edge_of, length)
         number = np.where(marked, np.cumsum(marked) - 1, -1)
-        refined = refined.split(number[edge_of], edges[marked], np.full(marked.sum(), 0.5))
+        refined = refined.split(number[edge_of], *refined.between(edges[marked], number[edge_of]))
     return refined
 
 

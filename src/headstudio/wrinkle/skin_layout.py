@@ -61,11 +61,10 @@ class SkinLayout:
         """G at vertices, (k,), of a refined skin: (k, 2, 2)."""
         return np.einsum("ki,kiab->kab", refined.weights[vertices], self.corner_metrics[refined.home[vertices]])
 
-    def face_uv(self, refined: RefinedMesh, faces: Ints) -> tuple[Floats, Floats]:
-        """Corners of refined triangles, (k,), in texture space, (k, 3, 2), and in their coarse triangles, (k, 3, 3)."""
-        parent = refined.parent[faces]
-        weights = refined.weights_in(refined.faces[faces], np.broadcast_to(parent[:, None], (len(faces), 3)))
-        return np.einsum("kci,kij->kcj", weights, self.corner_uv[parent]), weights
+    def place(self, uv: Floats) -> tuple[Ints, Floats]:
+        """The triangles of the skin, (k,), that hold points of texture space, (k, 2), and where in them, (k, 3)."""
+        found, _ = self.locate(uv)
+        return self.part.faces[found.faces], found.weights
 
     def locate(self, uv: Floats) -> tuple[SurfacePoints, Floats]:
         """Points of texture space, (k, 2), on the part: its faces with weights, and how far outside they lie, (k,)."""
