@@ -8,6 +8,7 @@ uniform vec4 far_depths;
 
 // at: in the light's box, 0 to 1. own: what a strand at this very place has added to the count itself.
 float hair_crossed(vec3 at, float own) {
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 0.0;
     float depth = at.z - textureLod(front, at.xy, 0.0).r;
     vec4 a = textureLod(near_counts, at.xy, 0.0), b = textureLod(far_counts, at.xy, 0.0);
     float counts[9] = float[9](0.0, a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);

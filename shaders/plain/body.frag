@@ -4,6 +4,7 @@
 #include "common/shadow.glsl"
 #include "common/deep_opacity.glsl"
 uniform vec3 diffuse;  // albedo
+uniform mat4 hair_box; // of the light, around the hair alone, from the world
 uniform vec3 lost;     // of light that meets a strand, the part that does not go on
 in vec3 v_place;
 in vec3 v_normal;
@@ -36,7 +37,7 @@ void main() {
     float fresnel = mirrored + (1.0 - mirrored) * pow(1.0 - max(dot(h, l), 0.0), 5.0);
     float shine = a2 / (pi * d * d) * fresnel * smith(n_l) * smith(n_v) / max(4.0 * n_l * n_v, 1e-4);
 
-    vec3 at = light_box(v_place + n * 0.001);
+    vec3 at = (hair_box * vec4(v_place + n * 0.001, 1.0)).xyz * 0.5 + 0.5;
     float lit = n_l > 0.0 ? past_objects_at(light_box(v_place + (n + l) * 0.0015), 0.001) : 0.0;
     vec3 sun = pi * radiance.rgb * n_l * lit * exp(-lost * hair_crossed(at));
     float sheen = coat(n_v);

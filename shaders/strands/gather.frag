@@ -6,8 +6,8 @@ uniform sampler2D receivers;   // places in the head frame [m]
 uniform sampler2D directions;  // right, up and towards the sky, for every direction; 2 k and 2 k + 1 are opposite
 uniform sampler2D body;        // radiance and depth, as seen from every direction
 uniform int tiles;
-uniform vec3 centre;           // of the sphere around hair and body [m]
-uniform float radius;
+uniform vec4 body_sphere;      // centre and radius [m] of what the views of the body show
+uniform vec4 hair_sphere;      // and of those of the hair
 uniform vec3 lost;             // of light that meets a strand, the part that does not go on
 uniform vec3 sky_above;
 uniform vec3 sky_below;
@@ -17,31 +17,40 @@ layout(location = 0) out vec4 red;
 layout(location = 1) out vec4 green;
 layout(location = 2) out vec4 blue;
 
-vec3 box_of(int k, vec3 place, out vec3 direction) {
-    vec3 from = (place - centre) / radius;
-    direction = texelFetch(directions, ivec2(2, k), 0).xyz;
+// In the box of view k, 0 to 1.
+vec3 box_of(int k, vec4 sphere, vec3 place) {
+    vec3 from = (place - sphere.xyz) / sphere.w;
     return 0.5 + 0.5 * vec3(dot(texelFetch(directions, ivec2(0, k), 0).xyz, from),
-                            dot(texelFetch(directions, ivec2(1, k), 0).xyz, from), -dot(direction, from));
+                            dot(texelFetch(directions, ivec2(1, k), 0).xyz, from),
+                            -dot(texelFetch(directions, ivec2(2, k), 0).xyz, from));
 }
 
 vec3 in_texture(int k, vec3 at) {
     return vec3((at.xy + vec2(k % tiles, k / tiles)) / float(tiles), at.z);
 }
 
+float hair_crossed_by(int k, vec3 place) {
+    vec3 at = box_of(k, hair_sphere, place);
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 0.0;
+    return hair_crossed(in_texture(k, at));
+}
+
 void main() {
     vec3 place = texelFetch(receivers, ivec2(gl_FragCoord.xy), 0).xyz;
     red = green = blue = vec4(0.0);
-    float known = 0.0, margin = 0.5 * bias / radius;
+    float known = 0.0, margin = 0.5 * bias / body_sphere.w;
     for (int k = 0; k < textureSize(directions, 0).y; ++k) {
-        vec3 direction, opposite;
-        vec3 at = in_texture(k, box_of(k, place, direction)), behind = in_texture(k ^ 1, box_of(k ^ 1, place, opposite));
+        vec3 direction = texelFetch(directions, ivec2(2, k), 0).xyz;
+        vec3 at = in_texture(k, box_of(k, body_sphere, place));
         vec3 light;
         if (textureLod(body, at.xy, 0.0).a > at.z - margin) {
-            light = mix(sky_below, sky_above, 0.5 + 0.5 * dot(direction, upward)) * exp(-lost * hair_crossed(at));
+            light = mix(sky_below, sky_above, 0.5 + 0.5 * dot(direction, upward)) * exp(-lost * hair_crossed_by(k, place));
         } else {
+            vec3 behind = in_texture(k ^ 1, box_of(k ^ 1, body_sphere, place));
             vec4 wall = textureLod(body, behind.xy, 0.0);
             if (wall.a < behind.z - margin) continue;  // inside the body
-            float crossed = hair_crossed(vec3(behind.xy, max(wall.a, behind.z))) - hair_crossed(behind);
+            vec3 there = place + direction * max((wall.a - behind.z) * 2.0 * body_sphere.w, 0.0);
+            float crossed = hair_crossed_by(k ^ 1, there) - hair_crossed_by(k ^ 1, place);
             light = wall.rgb * exp(-lost * crossed);
         }
         known += 1.0;

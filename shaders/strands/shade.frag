@@ -13,6 +13,8 @@ uniform vec3 hair_absorption;  // else: per radius
 uniform float colour_slope;
 uniform bool fibre_model;      // Marschner's lobes, or Kajiya and Kay's
 uniform float widening;
+uniform mat4 hair_box;         // of the light, around the hair alone, from the world
+uniform float box_size;        // [m]
 out vec4 radiance_;
 
 vec3 absorption_at(ivec2 texel) {
@@ -49,14 +51,14 @@ void main() {
     float sin_in = dot(to_light.xyz, along), sin_out = dot(to_eye, along);
     float phi = azimuth_between(along, to_light.xyz, to_eye);
 
-    vec3 at = light_box(place);
-    float width = 2.0 * texelFetch(points, texel, 0).w * widening * float(textureSize(near_counts, 0).x) / shadow.y;
+    vec3 at = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
+    float width = 2.0 * texelFetch(points, texel, 0).w * widening * float(textureSize(near_counts, 0).x) / box_size;
     float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at, 0.75 * min(width, 1.0));
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
     mat4x3 sent_in = albedo(sin_in, absorption);
     vec3 endless, passed;
     pile(sent_in[0], sent_in[1], endless, passed);
-    float behind = hair_crossed(vec3(at.xy, at.z + 0.05 / shadow.y)) - crossed;
+    float behind = hair_crossed(vec3(at.xy, at.z + 0.05 / box_size)) - crossed;
     float direct = exp(-crossed);
     vec3 scattered = (exp(-crossed * (1.0 - passed)) - direct);
 

@@ -5,11 +5,13 @@
 #include "common/shadow.glsl"
 #include "common/deep_opacity.glsl"
 uniform sampler2D receivers;  // places in the head frame [m]
+uniform mat4 hair_box;        // of the light, around the hair alone, from the world
 uniform vec3 lost;            // of light that meets a strand, the part that does not go on
 out vec4 lit;
 
 void main() {
     vec3 place = turned(texelFetch(receivers, ivec2(gl_FragCoord.xy), 0).xyz, head_turn.xyz) + head_shift.xyz;
-    vec3 at = light_box(place + to_light.xyz * 0.001);
-    lit = vec4(past_objects_at(at, 0.001) * exp(-lost * hair_crossed(at)), 1.0);
+    place += to_light.xyz * 0.001;
+    vec3 in_hair = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
+    lit = vec4(past_objects_at(light_box(place), 0.001) * exp(-lost * hair_crossed(in_hair)), 1.0);
 }

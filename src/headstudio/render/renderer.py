@@ -147,11 +147,8 @@ class Renderer:
         if self._sky_in == wanted:
             return
         skin = stage.head.skin
-        low, high = skin.bounds
-        centre = (low + high) / 2
-        radius = max(float(np.linalg.norm(high - low)) / 2, strands.reach + float(np.linalg.norm(centre)))
         sky_light = SkyLight(self.context, self._sky_programs, self._strand_programs.opacity, skin.vertices, skin.faces)
-        strands.see_from_sky(sky_light, centre, radius)
+        strands.see_from_sky(sky_light)
         lost = strands.lost(material)
         sky = Sky(*sky_and_ground(look), np.array([0.0, 1.0, 0.0]))
         sky_light.see_body(

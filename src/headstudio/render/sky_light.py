@@ -18,12 +18,13 @@ from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky import sphere_directions
-from .view import View, parallel_view
+from .view import Sphere, bounding_sphere, parallel_view
 
 PAIRS = 16
 """Pairs of opposite directions that stand for the sky."""
 
 MAP_SIZE = 192
+BODY_SIZE = 256
 _TILES = 6
 # Places this near under the surface still see past it [m].
 _BIAS = 0.003
@@ -55,7 +56,7 @@ class SkyLight:
         self._context = context
         self._programs = programs
         self._hair = DeepOpacityMap(context, opacity, MAP_SIZE, _TILES)
-        side = MAP_SIZE * _TILES
+        side = BODY_SIZE * _TILES
         self._body = context.texture((side, side), 4, dtype="f4")
         self._body.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._body_target = context.framebuffer([self._body], context.depth_texture((side, side)))
@@ -69,19 +70,21 @@ class SkyLight:
             context.buffer(faces.astype("u4").tobytes()),
         )
         half = sphere_directions(2 * PAIRS)[:PAIRS]
-        self._lights: list[View] = []
         self._directions = np.stack([half, -half], axis=1).reshape(-1, 3)
         self._frames = context.texture((3, 2 * PAIRS), 3, dtype="f4")
         self._frames.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self._centre, self._radius = np.zeros(3), 1.0
+        self._body_sphere = self._hair_sphere = bounding_sphere(vertices)
+        self._views = [
+            parallel_view(direction, self._body_sphere.centre, self._body_sphere.radius)
+            for direction in self._directions
+        ]
+        self._frames.write(np.array([[view.right, view.up, -view.forward] for view in self._views], np.float32))
 
-    def see_hair(self, strips: LightStrips, indices: int, widening: float, centre: Floats, radius: float) -> None:
-        """Look at the hair from everywhere; ``centre`` and ``radius`` [m] of a sphere around hair and body."""
-        self._centre, self._radius = centre, radius
-        self._lights = [parallel_view(direction, centre, radius) for direction in self._directions]
-        frames = np.array([[light.right, light.up, -light.forward] for light in self._lights], np.float32)
-        self._frames.write(frames)
-        self._hair.fill(strips, indices, widening, np.eye(4), self._lights)
+    def see_hair(self, strips: LightStrips, indices: int, widening: float, sphere: Sphere) -> None:
+        """Look at the hair, which lies within a sphere, from everywhere."""
+        self._hair_sphere = sphere
+        lights = [parallel_view(direction, sphere.centre, sphere.radius) for direction in self._directions]
+        self._hair.fill(strips, indices, widening, np.eye(4), lights)
 
     def see_body(self, radiance: Floats) -> None:
         """Look at the body from everywhere; ``radiance`` of every vertex, linear RGB, (n, 3)."""
@@ -89,8 +92,8 @@ class SkyLight:
         target = self._body_target
         with self._context.scope(target, moderngl.DEPTH_TEST):
             target.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
-            for tile, light in enumerate(self._lights):
-                target.viewport = (tile % _TILES * MAP_SIZE, tile // _TILES * MAP_SIZE, MAP_SIZE, MAP_SIZE)
+            for tile, light in enumerate(self._views):
+                target.viewport = (tile % _TILES * BODY_SIZE, tile // _TILES * BODY_SIZE, BODY_SIZE, BODY_SIZE)
                 set_uniforms(self._programs.body, map_from_head=tuple(light.clip_from_world.T.ravel()))
                 self._surface.render()
             target.viewport = (0, 0, *target.size)
@@ -104,7 +107,7 @@ class SkyLight:
         self._body.use(2)
         return receive(
             self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=_TILES,
-            centre=tuple(self._centre), radius=self._radius, lost=tuple(lost), sky_above=tuple(sky.above),
+            body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform, lost=tuple(lost), sky_above=tuple(sky.above),
             sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS, **self._hair.bind(3),
         )  # fmt: skip
 

@@ -19,7 +19,7 @@ from .screen import ScreenPasses
 from .sky_light import Sky, SkyLight
 from .strand_points import POINT_ROW, StrandTextures, pack, piece_indices, strip_indices
 from .targets import LightTargets
-from .view import View
+from .view import View, bounding_sphere, parallel_view
 
 _DEPTH_LEVELS = 65535
 
@@ -79,6 +79,8 @@ class StrandHair:
         self._first = packed.first
         self._mean_colour = None if packed.colour is None else packed.colour.mean(axis=0).astype(float)
         self._grid = grid_around(strands.points)
+        self._sphere = bounding_sphere(strands.points)
+        self._hair_view: View
         self._soft: LightVolume | None = None
         self._fibre: Fibre | None = None
         self._tables: FibreTables
@@ -88,21 +90,38 @@ class StrandHair:
         return self.strands is strands and self.shown == min(shown, strands.count)
 
     def shed_light(self, light: View, frame: HeadFrame, maps: LightTargets, size: int) -> None:
-        """Draw the strands as the light sees them, and what they let through into the light map, for the skin."""
+        """Draw the strands as the light sees them, and what they let through into the light map, for the skin.
+
+        ``light``: its view of all there is; that of the hair alone, which has finer texels, follows from it.
+        """
         if self.opacity is None or self.opacity.size != size:
             self.opacity = DeepOpacityMap(self._context, self._programs.opacity, size)
-        self.opacity.fill(self._light_strips, self._indices, self.widening, _pose(frame), [light])
+        pose = _pose(frame)
+        centre = pose[:3, :3] @ self._sphere.centre + pose[:3, 3]
+        view = parallel_view(-light.forward, centre, self._sphere.radius)
+        self.opacity.fill(self._light_strips, self._indices, self.widening, pose, [view])
+        self._hair_view = view
+        from_light = view.clip_from_world @ np.linalg.inv(light.clip_from_world)
         with self._context.scope(maps.light, moderngl.NOTHING):
             maps.depth.compare_func = ""
             maps.depth.use(5)
-            self._programs.screens.draw("light_map", body=5, **self.opacity.bind(2))
+            self._programs.screens.draw(
+                "light_map", body=5, size=float(maps.size), hair_box_from_light=tuple(from_light.T.ravel()),
+                **self.opacity.bind(2),
+            )  # fmt: skip
             maps.depth.compare_func = "<="
 
-    def see_from_sky(self, sky_light: SkyLight, centre: Floats, radius: float) -> None:
-        """Show the hair to the sky; ``centre`` and ``radius`` [m] of a sphere around hair and body, head frame."""
+    def light_uniforms(self, first_unit: int) -> dict[str, object]:
+        """Bind what is known of the light in the hair to three units from ``first_unit`` on; returns the uniforms."""
+        assert self.opacity is not None
+        box = tuple(self._hair_view.clip_from_world.T.ravel())
+        return {"hair_box": box, "box_size": self._hair_view.far, **self.opacity.bind(first_unit)}
+
+    def see_from_sky(self, sky_light: SkyLight) -> None:
+        """Show the hair to the sky."""
         strands = min(SKY_STRANDS, self.shown)
         indices = int(2 * self._first[strands] + strands)
-        sky_light.see_hair(self._light_strips, indices, self.strands.count / strands, centre, radius)
+        sky_light.see_hair(self._light_strips, indices, self.strands.count / strands, self._sphere)
 
     def take_soft_light(self, sky_light: SkyLight, sky: Sky, lost: Floats) -> None:
         """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
@@ -123,7 +142,7 @@ class StrandHair:
         assert self.opacity is not None
         maps.depth.use(1)
         maps.map.use(2)
-        uniforms = {"shadow_map": 1, "light_map": 2, "lost": tuple(lost), **self.opacity.bind(3)}
+        uniforms = {"shadow_map": 1, "light_map": 2, "lost": tuple(lost), **self.light_uniforms(3)}
         return receive(self._context, self._programs.screens, "sunlit", places, 1, **uniforms)[:, 0, :3]
 
     def shade(self, material: StrandMaterial) -> None:
@@ -155,7 +174,7 @@ class StrandHair:
         rows = -(-self._shown_points // POINT_ROW)
         with self._context.scope(self._shade_target, moderngl.NOTHING):
             self._shade_target.viewport = (0, 0, POINT_ROW, max(rows, 1))
-            self._programs.screens.draw("shade", **uniforms, **self.opacity.bind(8), **self._soft.bind(11))
+            self._programs.screens.draw("shade", **uniforms, **self.light_uniforms(8), **self._soft.bind(11))
 
     def draw_blended(self, view: View, frame: HeadFrame, height: int) -> None:
         """Strands in order, farthest first, over the framebuffer in use, ``height`` pixels high."""

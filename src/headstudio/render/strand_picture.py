@@ -23,7 +23,7 @@ from .screen import ScreenPasses
 from .sky_light import Sky, SkyLight, SkyPrograms, irradiance
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .targets import light_targets, picture_targets
-from .view import View, parallel_view
+from .view import View, bounding_sphere, parallel_view
 
 SHADOW_SIZE = 1024
 FINENESS = 4
@@ -66,9 +66,8 @@ def strand_picture(
     body = PlainBody(context, PlainBodyPrograms(context), scene.meshes)
     maps = light_targets(context, SHADOW_SIZE)
     everything = np.concatenate([body.vertices, scene.strands.points])
-    centre = (everything.min(axis=0) + everything.max(axis=0)) / 2
-    radius = 1.02 * float(np.linalg.norm(everything - centre, axis=1).max())
-    light = parallel_view(scene.sun_direction, centre, radius)
+    around = bounding_sphere(everything)
+    light = parallel_view(scene.sun_direction, around.centre, around.radius)
     block = context.buffer(reserve=SCENE_DTYPE.itemsize)
     block.bind_to_uniform_block(0)
     block.write(_scene_block(view, light, scene).tobytes())
@@ -80,7 +79,7 @@ def strand_picture(
     sky = Sky(scene.sky, scene.sky, np.array([0.0, 1.0, 0.0]))
     lost = hair.lost(scene.material)
     sky_light = SkyLight(context, SkyPrograms(context), programs.opacity, body.vertices, body.faces)
-    hair.see_from_sky(sky_light, centre, radius)
+    hair.see_from_sky(sky_light)
     soft = np.pi * np.broadcast_to(scene.sky, body.vertices.shape) * 0.5
     above = body.vertices + 0.002 * body.normals
     facing = np.maximum(body.normals @ scene.sun_direction, 0.0)[:, None]
@@ -104,7 +103,7 @@ def strand_picture(
             targets.scene.clear(*scene.sky, 1.0, depth=1.0)
             maps.depth.use(0)
             maps.map.use(1)
-            body.draw(scene.diffuse, lost=tuple(lost), shadow_map=0, light_map=1, **hair.opacity.bind(8))
+            body.draw(scene.diffuse, lost=tuple(lost), shadow_map=0, light_map=1, **hair.light_uniforms(8))
             hair.draw_opaque(view, size * FINENESS)
         with context.scope(targets.reduced_target, moderngl.NOTHING):
             targets.colour.use(0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..head.mesh import Floats
 from ..scene.settings import Camera, Look
@@ -57,6 +58,28 @@ def camera_view(camera: Camera, aspect: float) -> View:
     projection[2, 2:] = (near + far) / (near - far), 2 * near * far / (near - far)
     projection[3, 2] = -1.0
     return _view(eye, target - eye, projection, near, far, focal)
+
+
+@dataclass(frozen=True, eq=False)
+class Sphere:
+    """A ball of space: centre [m], (3,), and radius [m]."""
+
+    centre: Floats
+    radius: float
+
+    @property
+    def uniform(self) -> tuple[float, float, float, float]:
+        """Centre and radius, for a shader."""
+        x, y, z = (float(value) for value in self.centre)
+        return x, y, z, self.radius
+
+
+def bounding_sphere(points: NDArray[np.floating]) -> Sphere:
+    """A sphere around points [m], (n, 3), with a little room to spare."""
+    if len(points) == 0:
+        return Sphere(np.zeros(3), 1.0)
+    centre = (points.min(axis=0) + points.max(axis=0)).astype(float) / 2
+    return Sphere(centre, max(1.02 * float(np.linalg.norm(points - centre, axis=1).max()), 1e-3))
 
 
 def light_view(look: Look, centre: Floats, radius: float) -> View:
