@@ -15,6 +15,7 @@ from ..wrinkle.face_settings import FaceSettings
 from ..wrinkle.fine_settings import FineSettings
 from ..wrinkle.settings import WrinkleSettings
 from .settings import Camera, HeadSettings, Look, MotionSettings
+from .skin_settings import SkinSettings
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,7 @@ class Document:
     face: FaceSettings = field(default_factory=FaceSettings)
     wrinkle: WrinkleSettings = field(default_factory=WrinkleSettings)
     fine: FineSettings = field(default_factory=FineSettings)
+    skin: SkinSettings = field(default_factory=SkinSettings)
     motion: MotionSettings = field(default_factory=MotionSettings)
     look: Look = field(default_factory=Look)
     camera: Camera = field(default_factory=Camera)

@@ -11,6 +11,8 @@ MOTIONS = ("rest", "shake", "nod", "turn", "tilt", "split", "wind")
 HAIR_AS = ("particles", "strands")
 SKIN_AS = ("resting", "living")
 STRAND_MODELS = ("fibre", "kajiya-kay")
+SKIN_SHOWS = ("skin", "expansion", "shrinkage", "amplitude", "height")
+TONE_MAPS = ("soft", "filmic", "none")
 
 
 @dataclass(frozen=True)
@@ -106,6 +108,24 @@ class Look:
         "Skin",
         SKIN_AS,
         "Resting: the head as it is. Living: a face with expressions, wrinkles and pores.",
+    )
+    skin_shows: str = choice(
+        "skin",
+        "Skin shows",
+        SKIN_SHOWS,
+        "Living skin as it is, or in colours: how much larger it is than at rest, how far it shrinks across its furrows, how "
+        "far these are grown, how high it is displaced.",
+        live=True,
+    )
+    split: float = number(
+        0.0, "Split", "", 0.0, 1.0, "Left of this part of the picture living skin has no wrinkles.", live=True
+    )
+    tone_map: str = choice(
+        "soft",
+        "Tone map",
+        TONE_MAPS,
+        "How bright light fits into a picture: a mild curve, the stronger one of film, or not at all.",
+        live=True,
     )
     strand_model: str = choice(
         "fibre", "Strand shading", STRAND_MODELS, "Marschner's lobes of a hair fibre, or Kajiya and Kay's.", live=True
