@@ -7,13 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from .carved_sheets import crossings, distance_to_furrows, sheet, tube, uniform_field
-from .sequential_carving import carve_one_by_one
 
 from headstudio.wrinkle.carving import CarvedField, carve
 from headstudio.wrinkle.direction_field import DirectionField
 from headstudio.wrinkle.laws import LAWS
 from headstudio.wrinkle.texels import texel_map
+
+from .carved_sheets import crossings, distance_to_furrows, sheet, tube, uniform_field
+from .sequential_carving import carve_one_by_one
 
 PRINTED = LAWS["printed"]
 DEPTH = 1e-4
@@ -108,7 +109,7 @@ def test_the_same_seed_gives_the_same_furrows_and_another_one_others() -> None:
     assert not np.array_equal(first.height, other.height)
 
 
-@pytest.mark.parametrize("batch", [1, 7, 100_000])
+@pytest.mark.parametrize("batch", [1, 7, 150])
 def test_how_many_grow_at_once_changes_nothing(batch: int) -> None:
     field = _swirl(64)
     usual = carve(field, PRINTED, depth=DEPTH, seed=3)

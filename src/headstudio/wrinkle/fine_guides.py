@@ -51,6 +51,9 @@ _PORES: tuple[tuple[dict[str, float], float, float], ...] = (
     ({"glabella": 0.6, "hairline": 0.4}, 0.22, 0.3),
     ({"chin": 1.0}, 0.14, 0.4),
 )
+# Places this far from the mesh belong to another part of the head [heights of the head]; between landmarks they lie under
+# the skin.
+_FAR = 0.2
 # On a limb: how many places, and m there. Skin whose normal lies this near to the side of palm or sole is bare (cosine).
 _LIMB_PLACES = 24
 _LIMB_MAGNITUDE = 0.55
@@ -89,28 +92,30 @@ class FineGuides:
 
 def face_guides(texture_map: TextureMap, landmarks: Landmarks) -> FineGuides:
     """Guides of a face or a whole head."""
-    places, falls, magnitudes = [], [], []
-    for weights, degrees, magnitude in _PLACES:
-        for mirror in _sides(weights):
-            places.append(_place(landmarks, weights, mirror))
-            falls.append(mirror * np.radians(degrees))
-            magnitudes.append(magnitude)
-    vertices = _nearest(texture_map, np.array(places))
+    placed = [
+        (_place(landmarks, weights, mirror), mirror * np.radians(degrees), magnitude)
+        for weights, degrees, magnitude in _PLACES
+        for mirror in _sides(weights)
+    ]
+    places, falls, magnitudes = (np.array(column) for column in zip(*placed))
+    height = landmarks.crown[1] - landmarks.chin[1]
+    vertices, away = _nearest(texture_map, places)
+    near = away < _FAR * height
+    vertices, falls, magnitudes = vertices[near], falls[near], magnitudes[near]
     normals = texture_map.mesh.vertex_normals[vertices]
     # Around the head to the left as seen from above, and up, along the skin.
     around = _unit(np.cross([0.0, 1.0, 0.0], normals))
     upward = np.cross(normals, around)
-    fall = np.array(falls)[:, None]
+    fall = falls[:, None]
     axes = in_texture(texture_map, vertices, np.cos(fall) * around - np.sin(fall) * upward)
 
-    height = landmarks.crown[1] - landmarks.chin[1]
     pores = np.zeros(len(texture_map.mesh.vertices))
     for weights, reach, most in _PORES:
         for mirror in _sides(weights):
             away = np.linalg.norm(texture_map.mesh.vertices - _place(landmarks, weights, mirror), axis=1)
             pores = np.maximum(pores, most * np.exp(-((away / (0.6 * reach * height)) ** 2)))
     pores[pores < 0.05] = 0.0
-    return FineGuides(vertices, axes, np.array(magnitudes), np.ones(len(pores)), pores)
+    return FineGuides(vertices, axes, magnitudes, np.ones(len(pores)), pores)
 
 
 def limb_guides(texture_map: TextureMap, along: Floats, bare: Floats | None = None) -> FineGuides:
@@ -162,10 +167,11 @@ def _place(landmarks: Landmarks, weights: dict[str, float], mirror: int) -> Floa
     return np.sum([weight * getattr(landmarks, names[name]) for name, weight in weights.items()], axis=0)
 
 
-def _nearest(texture_map: TextureMap, points: Floats) -> Ints:
+def _nearest(texture_map: TextureMap, points: Floats) -> tuple[Ints, Floats]:
+    """The vertices nearest to points [m], (k, 3), and how far they are [m]: both (k,)."""
     used = np.unique(texture_map.mesh.faces)
-    nearest: Ints = used[cKDTree(texture_map.mesh.vertices[used]).query(points)[1]]
-    return nearest
+    away, found = cKDTree(texture_map.mesh.vertices[used]).query(points)
+    return used[found], away
 
 
 def _spread_out(texture_map: TextureMap, count: int) -> Ints:
