@@ -61,8 +61,10 @@ def _gravity(places: Floats, styling: StylingSettings) -> Floats:
 
 
 def _back(places: Floats, styling: StylingSettings) -> Floats:
-    # Behind the head nothing pulls any more, so that what was combed back can fall.
-    return _fade(-places[:, 2], 0.7, 1.5) * _along(places, 0, 0, -1)
+    # Around the skull as a comb goes: up the forehead, back over the top. Behind the head nothing pulls any more, so that
+    # what was combed back can fall.
+    way = np.stack([0 * places[:, 0], np.maximum(places[:, 2], 0.0), -np.maximum(places[:, 1], 0.4)], axis=1)
+    return _fade(-places[:, 2], 0.3, 1.1) * way / np.linalg.norm(way, axis=1, keepdims=True)
 
 
 def _forward(places: Floats, styling: StylingSettings) -> Floats:

@@ -87,7 +87,9 @@ class Flow:
         clearance = self._clearance(wisps, joint)
         direction = most_aligned(force, straight, self.stiffness)
         direction = self._slide(start, direction, clearance)
-        direction = self._make_room(start, direction, clearance, ceiling - self._density.added(self._amounts[wisps]))
+        # The first segment stands in the head's own density, and cannot leave it.
+        free = np.where(joint == 0, np.inf, ceiling - self._density.added(self._amounts[wisps]))
+        direction = self._make_room(start, direction, clearance, free)
         frames = turn(carried, straight, direction)
         self.frames[wisps, joint] = frames
         self._turned[wisps] = frames @ rest.transpose(0, 2, 1)

@@ -60,8 +60,8 @@ def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tupl
     thickness = operation.thickness
     knot, middle = _braid_path(operation, surroundings, longest)
     side, front = sideways(surroundings, middle)
-    width = 0.55 * thickness * operation.groups
-    locks = plait(middle, side, front, operation.groups, width, 0.75 * thickness, operation.period)
+    width = 0.42 * thickness * operation.groups
+    locks = plait(middle, side, front, operation.groups, width, 0.65 * thickness, operation.period)
     gather = PointConstraint(knot, 1.5 * thickness, 1.0, surroundings)
     end = PointConstraint(middle[-1], 1.2 * thickness)
     return tuple(
@@ -73,7 +73,7 @@ def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tupl
 def _braid_path(operation: Braid, surroundings: Surroundings, longest: float) -> tuple[Floats, Floats]:
     """Where a braid starts [m], (3,), and the path it lies on [m], (n, 3)."""
     knot, away = _knot(surroundings, operation.place, 1.5 * operation.thickness)
-    clearance = 2.0 * operation.thickness
+    clearance = 1.5 * operation.thickness
     if operation.path:
         return knot, along_skin(surroundings, np.array(operation.path), clearance)
     # The way to the knot takes some of the hair, and a plait is shorter than its locks.

@@ -96,8 +96,8 @@ class Braid:
     path: tuple[Place, ...] = ()
     groups: int = integer(3, "Groups", 3, 9, "How many groups are plaited.")
     thickness: float = _thickness(0.011, "Radius of one group.")
-    period: float = number(0.075, "Period", "m", 0.02, 0.3, "Length of a whole plait.", shown="mm")
-    length: float = number(0.8, "Length", "", 0.1, 1.0, "What part of the longest hair is plaited; the rest is loose.")
+    period: float = number(0.07, "Period", "m", 0.02, 0.3, "Length of a whole plait.", shown="mm")
+    length: float = number(0.7, "Length", "", 0.1, 1.0, "What part of the longest hair is plaited; the rest is loose.")
     elastic: bool = switch(True, "Elastic", "An elastic around the end is seen.")
     colour: tuple[float, float, float] = colour("#33272a", "Colour", "Colour of the elastic.")
 
@@ -107,7 +107,7 @@ class Bun:
     """Gathers hair at a place and coils it up there."""
 
     selection: Selection = EVERYTHING
-    place: Place = (0.0, 0.75, -1.0)
+    place: Place = (0.0, 0.9, -0.8)
     radius: float = number(0.033, "Radius", "m", 0.005, 0.08, "Radius of the outermost coil.", shown="mm")
     thickness: float = _thickness(0.016, "Radius of the coiled lock.")
 
