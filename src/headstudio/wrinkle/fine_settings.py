@@ -71,9 +71,9 @@ class FineSettings:
     laws: str = choice("printed", "Laws", tuple(LAWS), "How furrows follow from the strength of the field (eq. 2.5).")
     pores: float = number(1.0, "Pores", "", 0.0, 1.0, "How many pores there are on nose, cheeks and forehead.")
     pore_size: float = number(
-        0.3e-3, "Pore size", "m", 0.05e-3, 1e-3, "Diameter of the largest pores.", shown="mm", log=True
+        0.4e-3, "Pore size", "m", 0.05e-3, 1e-3, "Diameter of the largest pores.", shown="mm", log=True
     )
-    pore_depth: float = number(0.06e-3, "Pore depth", "m", 0.0, 0.3e-3, "Depth of the largest pores.", shown="mm")
+    pore_depth: float = number(0.12e-3, "Pore depth", "m", 0.0, 0.3e-3, "Depth of the largest pores.", shown="mm")
     seed: int = integer(1, "Seed", 0, 2**31 - 1, "Start of the random numbers: the same seed gives the same furrows.")
     vectors: tuple[DirectionVector, ...] = ()
     painted_strength: GrayImage | None = None
