@@ -2,6 +2,7 @@
 // The light that the skin sends to the eye, at every pixel where it is seen.
 #include "common/scene.glsl"
 #include "common/shadow.glsl"
+#include "common/highlight.glsl"
 uniform sampler2D normals;
 uniform sampler2D paint;
 uniform sampler2D distances;
@@ -15,18 +16,6 @@ out vec4 colour;
 
 // Light creeps around the edge of the shadow, red the farthest, since red travels farthest under the skin.
 const vec3 wrap = vec3(0.34, 0.15, 0.09);
-
-float fifth(float x) {
-    float square = x * x;
-    return square * square * x;
-}
-
-float lobe(float n_h, float n_l, float n_v, float roughness) {
-    float a2 = roughness * roughness * roughness * roughness;
-    float d = n_h * n_h * (a2 - 1.0) + 1.0;
-    float k = roughness * roughness * 0.5;
-    return a2 / (3.14159 * d * d) / (4.0 * mix(n_l, 1.0, k) * mix(n_v, 1.0, k));
-}
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -40,6 +40,10 @@ ParticlesOption = Annotated[int | None, typer.Option("--particles", help="How ma
 PresetOption = Annotated[
     str | None, typer.Option("--preset", metavar="NAME", help="A hairstyle that ships; headstudio styles lists them.")
 ]
+ExpressionOption = Annotated[
+    list[str] | None,
+    typer.Option("--expression", metavar="NAME=0.8", help="smile, angry, squint_left ... May be repeated."),
+]
 PointsOption = Annotated[
     int | None, typer.Option("--points", min=2, max=1000, help="Points of every strand that is written.")
 ]
@@ -147,23 +151,43 @@ def simulate(
 
 @command()
 def render(
-    project: Project = None,
+    project: Annotated[
+        Path | None,
+        typer.Argument(help="A project, NAME.headstudio, or strands of any format; without one, the default head."),
+    ] = None,
     out: Annotated[Path, typer.Option(help="The picture, a PNG.")] = Path("picture.png"),
     size: SizeOption = "512",
-    view: ViewOption = None,
+    view: Annotated[
+        str | None,
+        typer.Option(
+            help="front, three-quarter, side, left, right, back or top; for strands, a JSON file: the guide says what."
+        ),
+    ] = None,
     motion: MotionOption = None,
     seconds: Annotated[float, typer.Option(min=0, max=600, help="How long after the start of the motion [s].")] = 0.0,
     particles: ParticlesOption = None,
-    head: HeadOption = None,
+    head: Annotated[
+        list[str] | None,
+        typer.Option("--head", help="makehuman, mannequin, or a mesh; below strands, as many meshes as there are."),
+    ] = None,
     seed: SeedOption = None,
     set_: SetOption = None,
 ) -> None:
-    """Draw one picture."""
+    """Draw one picture: of a project, or of strands with a stated camera and light."""
     from .commands.documents import choose_motion, choose_view, head_source, open_document
+    from .commands.hair_sources import is_hair_file
     from .commands.pictures import parse_size, render
+    from .commands.render_strands import render_stated
 
+    if project is not None and is_hair_file(str(project)):
+        render_stated(project, head or [], view, out)
+        return
     document = open_document(
-        project, set_ or (), head_source=head_source(head), hair_particles=particles, hair_seed=seed
+        project,
+        set_ or (),
+        head_source=head_source(head[-1] if head else None),
+        hair_particles=particles,
+        hair_seed=seed,
     )
     document, movement = choose_motion(document, motion)
     render(choose_view(document, view), movement, seconds, parse_size(size), out)
@@ -250,6 +274,52 @@ def import_(
     from .commands.import_hair import import_hair
 
     import_hair(hair, open_document(None, (), head_source=head_source(head)), points_per_strand, out)
+
+
+@command()
+def wrinkle(
+    project: Project = None,
+    preset: Annotated[
+        str | None,
+        typer.Option(
+            "--preset", help="thinking, smiling, troubled, angry, surprised, squinting, looking-down, neutral."
+        ),
+    ] = None,
+    expression: ExpressionOption = None,
+    wrinkles: Annotated[bool, typer.Option("--wrinkles/--no-wrinkles", help="With its wrinkles, or smooth.")] = True,
+    out: Annotated[Path, typer.Option(help="A picture (.png) or the posed mesh: .obj, .ply, .glb")] = Path("face.png"),
+    size: SizeOption = "512",
+    view: ViewOption = None,
+    head: HeadOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Show a face with an expression and the wrinkles it makes."""
+    from .commands.documents import choose_view, head_source, open_document
+    from .commands.pictures import parse_size
+    from .commands.wrinkle import with_face, wrinkle
+
+    document = open_document(project, set_ or (), head_source=head_source(head))
+    document = with_face(document, preset, expression or (), wrinkles)
+    wrinkle(choose_view(document, view), out, parse_size(size))
+
+
+@command()
+def bake(
+    project: Project = None,
+    maps: Annotated[str, typer.Option(help="height, normal, ao, weights: with commas between.")] = "height,normal,ao",
+    size: Annotated[int, typer.Option(min=128, max=4096, help="Width and height of the maps.")] = 2048,
+    out: Annotated[Path, typer.Option(help="The folder to fill.")] = Path("maps"),
+    expression: ExpressionOption = None,
+    head: HeadOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Write the wrinkles of a face as maps: heights in 16 bits, normals, occlusion, and what each expression adds."""
+    from .commands.bake import bake, parse_maps
+    from .commands.documents import head_source, open_document
+    from .commands.wrinkle import with_face
+
+    document = open_document(project, set_ or (), head_source=head_source(head))
+    bake(with_face(document, None, expression or (), True), parse_maps(maps), size, out)
 
 
 @command()

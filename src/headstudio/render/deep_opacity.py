@@ -130,8 +130,7 @@ class DeepOpacityMap:
 
 
 def _whole(target: moderngl.Framebuffer) -> None:
-    target.scissor = None
-    target.viewport = (0, 0, *target.size)
+    target.viewport = target.scissor = (0, 0, *target.size)
 
 
 def _smooth(texture: moderngl.Texture) -> moderngl.Texture:

@@ -28,6 +28,7 @@ def receive(
         asking.use(0)
         screens.draw(name, receivers=0, **uniforms)
     read = np.stack([np.frombuffer(answer.read(), np.float32).reshape(-1, 4) for answer in answers], axis=1)
-    for resource in (target, asking, *answers):
-        resource.release()
+    target.release()
+    for texture in (asking, *answers):
+        texture.release()
     return read[: len(places)].astype(np.float64)

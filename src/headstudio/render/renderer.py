@@ -14,11 +14,22 @@ from .hair import Hair, HairPrograms
 from .overlays import OverlayPass
 from .scene_block import SCENE_DTYPE, linear, scene_block, sky_and_ground
 from .screen import ScreenPasses
-from .sky_light import Sky, SkyLight, SkyPrograms
+from .skin_paint import coarse_faces
+from .sky_light import FINE, QUICK, Sky, SkyLight, SkyPrograms
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
+from .strand_picture import FINENESS, Progress
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
 from .timing import StageTimer
 from .view import View, camera_view, light_view
+
+# Steps that a final picture is drawn in, so that somebody can watch it and stop it.
+_STEPS = 16
+# Details of the body below this size [m] do not matter to the soft light between strands.
+_BODY_DETAIL = 0.006
+
+
+class _StoppedError(Exception):
+    """Somebody stopped a final picture."""
 
 
 class Renderer:
@@ -43,6 +54,7 @@ class Renderer:
         self._hair: Hair | None = None
         self._strands: StrandHair | None = None
         self._maps: LightTargets | None = None
+        self._final: Progress | None = None
         self._targets: PictureTargets | None = None
 
     @property
@@ -77,6 +89,21 @@ class Renderer:
                 before.use()
             if self.context.gc_mode == "context_gc":
                 self.context.gc()
+
+    def render_final(
+        self, stage: Stage, look: Look, camera: Camera, size: Size, progress: Progress | None = None
+    ) -> moderngl.Texture | None:
+        """Draw the stage with all of its strands, each exactly as wide as it is, and FINENESS squared samples a pixel.
+
+        ``progress`` is told how many of how many steps are done, and stops the picture with False: then None.
+        """
+        self._final = progress or (lambda done, of: True)
+        try:
+            return self.render(stage, look, camera, size, supersampling=FINENESS)
+        except _StoppedError:
+            return None
+        finally:
+            self._final = None
 
     def read_pixels(self) -> NDArray[np.uint8]:
         """The last picture, top row first, shape (height, width, 3). Waits for the graphics card: for captures only."""
@@ -136,18 +163,21 @@ class Renderer:
         if stage.strands is None or stage.strands.count == 0 or not look.show_hair:
             return None
         known = self._strands
-        if known is None or not known.suits(stage.strands, look.strands_shown):
-            self._strands = StrandHair(self.context, self._strand_programs, stage.strands, look.strands_shown)
+        shown = stage.strands.count if self._final else look.strands_shown
+        if known is None or not known.suits(stage.strands, shown):
+            self._strands = StrandHair(self.context, self._strand_programs, stage.strands, shown)
         return self._strands
 
     def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
         """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
         material = strand_material(look)
-        wanted = (strands, look.ambient, material.absorption, look.strand_roughness)
+        detail = FINE if self._final else QUICK
+        wanted = (strands, detail, look.ambient, material.absorption, look.strand_roughness)
         if self._sky_in == wanted:
             return
         skin = stage.head.skin
-        sky_light = SkyLight(self.context, self._sky_programs, self._strand_programs.opacity, skin.vertices, skin.faces)
+        opacity, faces = self._strand_programs.opacity, coarse_faces(skin, _BODY_DETAIL)
+        sky_light = SkyLight(self.context, self._sky_programs, opacity, skin.vertices, faces, detail)
         strands.see_from_sky(sky_light)
         lost = strands.lost(material)
         sky = Sky(*sky_and_ground(look), np.array([0.0, 1.0, 0.0]))
@@ -207,6 +237,14 @@ class Renderer:
         maps.depth.use(0)
         maps.map.use(1)
         strands.shade(strand_material(look))
+        if self._final:
+            with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
+                targets.scene.depth_mask = True
+                for done in strands.draw_opaque(view, targets.scene.height, _STEPS):
+                    self.context.finish()
+                    if not self._final(done, _STEPS):
+                        raise _StoppedError
+            return
         with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
             targets.scene.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA

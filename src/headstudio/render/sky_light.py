@@ -20,8 +20,17 @@ from .screen import ScreenPasses
 from .sky import sphere_directions
 from .view import Sphere, bounding_sphere, parallel_view
 
-PAIRS = 16
-"""Pairs of opposite directions that stand for the sky."""
+
+@dataclass(frozen=True)
+class SkyDetail:
+    """pairs: of opposite directions that stand for the sky, at most 18. strands: how many stand for the hair."""
+
+    pairs: int
+    strands: int
+
+
+FINE = SkyDetail(pairs=16, strands=5_000)
+QUICK = SkyDetail(pairs=7, strands=1_500)
 
 MAP_SIZE = 192
 BODY_SIZE = 256
@@ -51,8 +60,16 @@ class SkyLight:
     """The sky as seen through one hairstyle on one body; in the head frame."""
 
     def __init__(
-        self, context: moderngl.Context, programs: SkyPrograms, opacity: OpacityPrograms, vertices: Floats, faces: Ints
+        self,
+        context: moderngl.Context,
+        programs: SkyPrograms,
+        opacity: OpacityPrograms,
+        vertices: Floats,
+        faces: Ints,
+        detail: SkyDetail,
     ) -> None:
+        self.detail = detail
+
         self._context = context
         self._programs = programs
         self._hair = DeepOpacityMap(context, opacity, MAP_SIZE, _TILES)
@@ -69,9 +86,9 @@ class SkyLight:
             ],
             context.buffer(faces.astype("u4").tobytes()),
         )
-        half = sphere_directions(2 * PAIRS)[:PAIRS]
+        half = sphere_directions(2 * detail.pairs)[: detail.pairs]
         self._directions = np.stack([half, -half], axis=1).reshape(-1, 3)
-        self._frames = context.texture((3, 2 * PAIRS), 3, dtype="f4")
+        self._frames = context.texture((3, 2 * detail.pairs), 3, dtype="f4")
         self._frames.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._body_sphere = self._hair_sphere = bounding_sphere(vertices)
         self._views = [
@@ -107,7 +124,8 @@ class SkyLight:
         self._body.use(2)
         return receive(
             self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=_TILES,
-            body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform, lost=tuple(lost), sky_above=tuple(sky.above),
+            body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
+            lost=tuple(lost), sky_above=tuple(sky.above),
             sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS, **self._hair.bind(3),
         )  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import moderngl
@@ -22,9 +23,6 @@ from .targets import LightTargets
 from .view import View, bounding_sphere, parallel_view
 
 _DEPTH_LEVELS = 65535
-
-SKY_STRANDS = 5_000
-"""Strands, spread evenly over all, that stand for the hair when soft light looks for its way through it."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +79,7 @@ class StrandHair:
         self._grid = grid_around(strands.points)
         self._sphere = bounding_sphere(strands.points)
         self._hair_view: View
+        self._lit_by: tuple[bytes, bytes, int] | None = None
         self._soft: LightVolume | None = None
         self._fibre: Fibre | None = None
         self._tables: FibreTables
@@ -99,8 +98,10 @@ class StrandHair:
         pose = _pose(frame)
         centre = pose[:3, :3] @ self._sphere.centre + pose[:3, 3]
         view = parallel_view(-light.forward, centre, self._sphere.radius)
-        self.opacity.fill(self._light_strips, self._indices, self.widening, pose, [view])
-        self._hair_view = view
+        lit_by = (view.clip_from_world.tobytes(), pose.tobytes(), size)
+        if self._lit_by != lit_by:
+            self.opacity.fill(self._light_strips, self._indices, self.widening, pose, [view])
+            self._hair_view, self._lit_by = view, lit_by
         from_light = view.clip_from_world @ np.linalg.inv(light.clip_from_world)
         with self._context.scope(maps.light, moderngl.NOTHING):
             maps.depth.compare_func = ""
@@ -118,10 +119,12 @@ class StrandHair:
         return {"hair_box": box, "box_size": self._hair_view.far, **self.opacity.bind(first_unit)}
 
     def see_from_sky(self, sky_light: SkyLight) -> None:
-        """Show the hair to the sky."""
-        strands = min(SKY_STRANDS, self.shown)
+        """Show the hair to the sky: as many of the strands, spread evenly over all, as it can look through."""
+        strands = min(sky_light.detail.strands, self.shown)
         indices = int(2 * self._first[strands] + strands)
-        sky_light.see_hair(self._light_strips, indices, self.strands.count / strands, self._sphere)
+        sky_light.see_hair(
+            self._light_strips, indices, self.strands.stands_for * self.strands.count / strands, self._sphere
+        )
 
     def take_soft_light(self, sky_light: SkyLight, sky: Sky, lost: Floats) -> None:
         """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
@@ -188,10 +191,16 @@ class StrandHair:
         self._use(view, height, blended=True)
         self._sorted_array.render(moderngl.TRIANGLE_STRIP)
 
-    def draw_opaque(self, view: View, height: int) -> None:
-        """Strands exactly as wide as they are, hidden by what is in front of them."""
-        self._use(view, height, blended=False)
-        self._whole.render(moderngl.TRIANGLE_STRIP)
+    def draw_opaque(self, view: View, height: int, steps: int) -> Iterator[int]:
+        """Strands exactly as wide as they are, hidden by what is in front of them: in so many steps, 1, 2, 3 ..."""
+        bounds = np.linspace(0, self.shown, steps + 1).astype(int)
+        indices = 2 * self._first[bounds] + bounds
+        for step in range(steps):
+            self._use(view, height, blended=False)
+            start, end = int(indices[step]), int(indices[step + 1])
+            if end > start:
+                self._whole.render(moderngl.TRIANGLE_STRIP, vertices=end - start, first=start)
+            yield step + 1
 
     def _use(self, view: View, height: int, blended: bool) -> None:
         self._textures.points.use(2)

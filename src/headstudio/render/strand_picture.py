@@ -20,19 +20,20 @@ from ..wisp.strands import Strands
 from .plain_body import PlainBody, PlainBodyPrograms
 from .scene_block import SCENE_DTYPE
 from .screen import ScreenPasses
-from .sky_light import Sky, SkyLight, SkyPrograms, irradiance
+from .sky_light import FINE, Sky, SkyLight, SkyPrograms, irradiance
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .targets import light_targets, picture_targets
 from .view import View, bounding_sphere, parallel_view
 
 SHADOW_SIZE = 1024
+STEPS = 8
 FINENESS = 4
 """Samples a pixel along each side, in every pass."""
 
 BOUNCES = 2
 
 Progress = Callable[[int, int], bool]
-"""Told how many of how many passes are done; False stops the picture."""
+"""Told how many of how many steps are done; False stops the picture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +79,7 @@ def strand_picture(
     hair.shed_light(light, HeadFrame(), maps, SHADOW_SIZE)
     sky = Sky(scene.sky, scene.sky, np.array([0.0, 1.0, 0.0]))
     lost = hair.lost(scene.material)
-    sky_light = SkyLight(context, SkyPrograms(context), programs.opacity, body.vertices, body.faces)
+    sky_light = SkyLight(context, SkyPrograms(context), programs.opacity, body.vertices, body.faces, FINE)
     hair.see_from_sky(sky_light)
     soft = np.pi * np.broadcast_to(scene.sky, body.vertices.shape) * 0.5
     above = body.vertices + 0.002 * body.normals
@@ -96,22 +97,31 @@ def strand_picture(
     screens = ScreenPasses(context, "reduce")
     targets = picture_targets(context, (size, size), FINENESS)
     total = np.zeros((size, size, 4), np.float32)
+    red, green, blue = (float(part) for part in scene.sky)
     for k in range(passes):
         block.write(_scene_block(view, light, scene, _within_sample(k) * 2 / (size * FINENESS)).tobytes())
         with context.scope(targets.scene, moderngl.DEPTH_TEST):
             targets.scene.depth_mask = True
-            targets.scene.clear(*scene.sky, 1.0, depth=1.0)
+            targets.scene.clear(red, green, blue, 1.0, depth=1.0)
             maps.depth.use(0)
             maps.map.use(1)
             body.draw(scene.diffuse, lost=tuple(lost), shadow_map=0, light_map=1, **hair.light_uniforms(8))
-            hair.draw_opaque(view, size * FINENESS)
+            for step in hair.draw_opaque(view, size * FINENESS, STEPS):
+                context.finish()
+                if progress is not None and not progress(k * STEPS + step, passes * STEPS):
+                    return None
         with context.scope(targets.reduced_target, moderngl.NOTHING):
             targets.colour.use(0)
             screens.draw("reduce", fine=0, supersampling=FINENESS)
         total += np.frombuffer(targets.reduced_target.read(components=4, dtype="f2"), np.float16).reshape(total.shape)
-        if progress is not None and not progress(k + 1, passes):
-            return None
-    return total[::-1, :, :3] / passes
+    return np.ascontiguousarray(total[::-1, :, :3] / np.float32(passes))
+
+
+def shown(picture: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """Linear light as it is shown, in sRGB (IEC 61966-2-1): the same shape."""
+    light = np.clip(picture, 0.0, 1.0)
+    bent = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-6) ** (1 / 2.4) - 0.055)
+    return np.rint(255 * bent).astype(np.uint8)
 
 
 def _scene_block(view: View, light: View, scene: StrandScene, shift: Floats | None = None) -> NDArray[np.void]:

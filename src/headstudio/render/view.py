@@ -51,13 +51,13 @@ def camera_view(camera: Camera, aspect: float) -> View:
     eye = target + camera.distance * orbit_direction(camera.azimuth, camera.elevation)
     near = max(0.02 * camera.distance, camera.distance - _REACH)
     far = camera.distance + _REACH
-    focal = 1.0 / np.tan(camera.field_of_view / 2)
-    projection = np.zeros((4, 4))
-    projection[0, 0] = focal / aspect
-    projection[1, 1] = focal
-    projection[2, 2:] = (near + far) / (near - far), 2 * near * far / (near - far)
-    projection[3, 2] = -1.0
-    return _view(eye, target - eye, projection, near, far, focal)
+    return _perspective(eye, target, camera.field_of_view, aspect, near, far)
+
+
+def perspective_view(eye: Floats, target: Floats, field_of_view: float, aspect: float) -> View:
+    """The view from ``eye`` to ``target`` [m] with this vertical angle [rad]; ``aspect`` is width over height."""
+    distance = float(np.linalg.norm(target - eye))
+    return _perspective(eye, target, field_of_view, aspect, 0.02 * distance, distance + _REACH)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +92,16 @@ def parallel_view(direction: Floats, centre: Floats, radius: float) -> View:
     projection = np.diag([1 / radius, 1 / radius, -1 / radius, 1.0])
     projection[2, 3] = -1.0
     return _view(centre + radius * direction, -direction, projection, 0.0, 2 * radius)
+
+
+def _perspective(eye: Floats, target: Floats, field_of_view: float, aspect: float, near: float, far: float) -> View:
+    focal = 1.0 / np.tan(field_of_view / 2)
+    projection = np.zeros((4, 4))
+    projection[0, 0] = focal / aspect
+    projection[1, 1] = focal
+    projection[2, 2:] = (near + far) / (near - far), 2 * near * far / (near - far)
+    projection[3, 2] = -1.0
+    return _view(eye, target - eye, projection, near, far, focal)
 
 
 def _view(eye: Floats, direction: Floats, projection: Floats, near: float, far: float, focal: float = 1.0) -> View:
