@@ -58,6 +58,12 @@ class TriangleMesh:
         a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
         return np.cross(b - a, c - a)
 
+    def shaded(self, normals: Floats) -> TriangleMesh:
+        """The same mesh with other ``vertex_normals``, unit, shape (n, 3): those of the smooth surface it stands for."""
+        mesh = replace(self)
+        mesh.__dict__["vertex_normals"] = normals
+        return mesh
+
     def moved(self, vertices: Floats) -> TriangleMesh:
         """The same surface with other vertex positions [m], shape (n, 3)."""
         return replace(self, vertices=vertices)

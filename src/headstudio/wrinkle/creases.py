@@ -76,11 +76,15 @@ class Creases:
         height = beside.fade * profile
         slope = beside.fade * bounded_slope(beside.distance, depth, width)
         gradient = slope[:, None] * beside.toward + profile[:, None] * beside.along
-        raised, self._raised_more = balance(bed, self._surface, height)
-        self._height = (1.0 + raised) * height
-        self._by_u, self._by_v = ((1.0 + raised) * gradient[:, k] for k in (0, 1))
-        self._blending = Blending(self._row, self._height)
-        self._folds = Folds(bed, self._surface, self._height) if self_contact else None
+        raised, raised_more = balance(bed, self._surface, height)
+        height = (1.0 + raised) * height
+        # From amplitudes of the entries to heights of the vertices and their derivatives by u and v; and from squared
+        # amplitudes to what the bulges rise besides.
+        summed = (height, *((1.0 + raised) * gradient[:, k] for k in (0, 1)))
+        self._sums = sparse.csr_array(sparse.vstack([self._summing(values) for values in summed]))
+        self._sums_of_squares = self._summing(raised_more * height)
+        self._blending = Blending(self._row, height)
+        self._folds = Folds(bed, self._surface, height) if self_contact else None
         self._gauge, self._spread = _gauge_beside(bed, measure)
 
     def displaced(self, posed: Floats) -> WrinkledSkin:
@@ -94,37 +98,41 @@ class Creases:
         share = self._blending.applied(grown)
         surface = self._surface.at(posed)
 
-        height = self._at_vertices(share * (1.0 + grown * self._raised_more) * self._height)
+        height, *slopes = (self._sums @ share).reshape(3, -1)
+        height += self._sums_of_squares @ (share * grown)
         # Like other directions, slopes need no more than single precision.
-        by_u, by_v = (
-            self._at_vertices(share * slope).astype(np.float32)[:, None] for slope in (self._by_u, self._by_v)
-        )
+        by_u, by_v = (slope.astype(np.float32)[:, None] for slope in slopes)
         if self._folds is not None:
             height = self._folds.clamped(height, posed, surface)
-        positions, normals, heights = self._whole(posed, surface.coarse_normals)
-        fine = self._surface.vertices
-        positions[fine] = surface.positions + height[:, None] * surface.normals
-        normals[fine] = unit(surface.normals - by_u * surface.by_u - by_v * surface.by_v)
-        heights[fine] = height
-        return WrinkledSkin(positions, normals, heights, shrinkage, grown)
+        positions = surface.positions + height[:, None] * surface.normals
+        normals = unit(surface.normals - by_u * surface.by_u - by_v * surface.by_v)
+        return WrinkledSkin(
+            self._whole(posed, positions),
+            self._whole(surface.coarse_normals, normals),
+            self._whole(np.zeros(len(posed)), height),
+            shrinkage,
+            grown,
+        )
 
     def mesh(self, skin: WrinkledSkin) -> TriangleMesh:
         """The wrinkled skin as a mesh that is shaded with its own normals."""
-        mesh = TriangleMesh(skin.positions, self.faces)
-        # Computed anew from the triangles they would show the border of the refinement.
-        mesh.__dict__["vertex_normals"] = skin.normals
-        return mesh
+        # Computed anew from the triangles, normals would show the border of the refinement.
+        return TriangleMesh(skin.positions, self.faces).shaded(skin.normals)
 
-    def _at_vertices(self, values: Floats) -> Floats:
-        """Values of the entries, (i,), added up at the vertices of the fine surface, (k,)."""
-        return np.bincount(self._row, values, minlength=len(self._surface.vertices)).astype(np.float64)
+    def _summing(self, values: Floats) -> sparse.csr_array:
+        """The matrix, (k, i), that adds up entries times ``values``, (i,), at the vertices of the fine surface."""
+        used = np.flatnonzero(values)
+        shape = len(self._surface.vertices), len(values)
+        return sparse.csr_array(sparse.coo_array((values[used], (self._row[used], used)), shape=shape))
 
-    def _whole(self, posed: Floats, normals: Floats) -> tuple[Floats, Floats, Floats]:
-        """Positions, normals and heights of the whole refined skin, those of the coarse vertices filled in."""
-        count = len(self.bed.refined.home)
-        places, directions = np.empty((count, 3)), np.empty((count, 3))
-        places[: len(posed)], directions[: len(posed)] = posed, normals
-        return places, directions, np.zeros(count)
+    def _whole(self, coarse: Floats, fine: Floats) -> Floats:
+        """Values of the whole refined skin, (N, ...): of the coarse vertices, (n, ...), where not of the fine, (k, ...)."""
+        vertices, count = self._surface.vertices, len(coarse)
+        # All vertices that the coarse skin does not have are fine ones, and the last of them.
+        replaced = len(vertices) - (len(self.bed.refined.home) - count)
+        kept = coarse.copy()
+        kept[vertices[:replaced]] = fine[:replaced]
+        return np.concatenate([kept, fine[replaced:]])
 
 
 def _gauge_beside(bed: FurrowBed, measure: Measure) -> tuple[ShrinkageGauge, sparse.csr_array]:

@@ -1,8 +1,8 @@
 """The face chart: one flat face that all heads share, so that furrows move from head to head through the landmarks.
 
 The chart is the front of an average head rolled off a cylinder about the skull, which bends back into the neck: x to the
-person's left and y upward [m], both zero at the nasion. The smoothest map that takes the chart's landmarks to those of a head (polyharmonic splines) takes
-a furrow there.
+person's left and y upward [m], both zero at the nasion. A smooth map (polyharmonic splines) that takes the chart's
+landmarks to those of a head takes a furrow there.
 """
 
 from __future__ import annotations
