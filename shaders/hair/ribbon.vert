@@ -60,7 +60,7 @@ void main() {
     float sine = length(across);
     across = sine > 1e-4 ? across / sine : side.xyz;
     // Locks run to a point at both ends.
-    place += across * corner.x * ribbon_half_width * (1.0 - 0.45 * along * along);
+    place += across * corner.x * ribbon_half_width * length(side.xyz) * (1.0 - 0.45 * along * along);
 
     vec3 lights = record(light, int(look.w + 0.5), 1, 0).rgb;
     float received = mix(lights.g, along < 0.0 ? lights.r : lights.b, abs(along));

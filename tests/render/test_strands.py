@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -70,6 +72,68 @@ def test_one_particle_that_points_aside_is_combed() -> None:
     curves = CurveBuilder(model).curves(HairOnStage(model, model.rest_positions, directions), HeadFrame(), 0.02)
     assert curves.direction[6] @ [0, -1, 0] > 0.9
     np.testing.assert_allclose(np.einsum("ni,ni->n", curves.sideways, curves.direction), 0, atol=1e-9)
+
+
+def hanging_hair(aside: float) -> HairModel:
+    """Six strands side by side, straight down; the last two particles of the first are ``aside`` [m] of their place."""
+    across, along = np.meshgrid(0.01 * np.arange(6), 0.01 * np.arange(15), indexing="ij")
+    positions = np.stack([across, -along, 0 * along], axis=-1)
+    positions[0, -2:, 0] -= aside
+    flat = positions.reshape(-1, 3)
+    return model_of(flat, np.tile([0.0, -1.0, 0.0], (len(flat), 1)), along.ravel(), np.zeros((len(flat), 3)))
+
+
+def hung(model: HairModel, tip: int, root: int) -> HairModel:
+    """The model with no rootward link from ``tip`` but its lifeline, to ``root``."""
+    kept = model.links[:, 1] != tip
+    parts = {
+        name: np.append(getattr(model, name)[kept], getattr(model, name).mean())
+        for name in ("alignment", "rest_length", "strength")
+    }
+    lifeline = model.lifeline.copy()
+    lifeline[tip] = np.count_nonzero(kept)
+    return dataclasses.replace(
+        model,
+        links=np.concatenate([model.links[kept], [[root, tip]]]),
+        rest_cosine=np.ones((lifeline[tip] + 1, 2)),
+        lifeline=lifeline,
+        **parts,
+    )
+
+
+def test_hair_that_strays_begins_at_its_neighbour() -> None:
+    model = hung(hanging_hair(0.03), 13, 10)
+    curves = curves_of(model, half_length=0.02)
+    start = np.linalg.norm(curves.path[13, 0] - model.rest_positions[10])
+    assert start < 0.016
+    assert (curves.grown[13, 1:] > 0.9).all()
+    assert np.linalg.norm(curves.sideways[13]) < 0.75
+    assert curves.direction[13] @ [-1, 0, 0] > 0.5
+    # Hair amid other hair is drawn as ever.
+    np.testing.assert_allclose(np.linalg.norm(curves.sideways[20:], axis=1), 1, atol=1e-9)
+
+
+def test_hair_that_would_have_to_come_from_afar_is_not_drawn_nor_what_hangs_on_it() -> None:
+    model = hung(hanging_hair(0.12), 13, 12)
+    grown = curves_of(model, half_length=0.02).grown
+    assert (grown[[13, 14]] == 0).all()
+    assert (grown[20:, -1] == 1).all()
+
+
+def test_hair_goes_astray_little_by_little() -> None:
+    """No curve jumps while a lock is drawn out of the hair."""
+    model = hung(hanging_hair(0.0), 13, 10)
+    starts, shown = [], []
+    for aside in np.linspace(0, 0.06, 121):
+        positions = model.rest_positions.copy()
+        positions[[13, 14], 0] -= aside
+        curves = CurveBuilder(model).curves(HairOnStage(model, positions, model.rest_directions), HeadFrame(), 0.02)
+        starts.append(curves.path[13, 0])
+        shown.append(curves.grown[13, -1])
+    assert np.linalg.norm(np.diff(starts, axis=0), axis=1).max() < 0.004
+    assert np.abs(np.diff(shown)).max() < 0.2
+    assert shown[0] == 1
+    assert shown[-1] < 0.5
 
 
 def test_sideways_stays_across_hair_that_moved(hair_model: HairModel) -> None:

@@ -65,7 +65,8 @@ def light_billboards(
     out["axis"] = axis
     out["half_width"] = half_width
     out["half_length"] = half_width * look.billboard_stretch * np.maximum(sine, LEAST_SINE)
-    out["opacity"] = opacity_scale(direction @ light.forward, look.hair_opacity)
+    # Hair that is not drawn casts no shadow.
+    out["opacity"] = opacity_scale(direction @ light.forward, look.hair_opacity) * curves.grown[order, -1]
     out["window"] = windows[order]
     out["window_width"] = look.billboard_width * model.spacing / STRIP_WIDTH
     out["depth"] = depth[order] / light.far

@@ -17,6 +17,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
 from ..lcp.model import HairModel
 from ..scene.stage import HairOnStage
+from .strays import StrayFinder, Strays
 
 SECTIONS = 5
 """Places on the curve: as many towards the root as towards the tip, and the particle itself."""
@@ -25,16 +26,20 @@ _MIDDLE = SECTIONS // 2
 _NEIGHBOURS_ASKED = 24
 # Arc lengths [m] between which hair fades in: ribbons start softly, and a few millimetres beside their own root.
 _LEAVES_SCALP = (-0.002, 0.014)
+# Hair that strays is a narrower lock by this part, and begins this far [m] before the particle it comes from.
+_THINNER = 0.5
+_EARLIER = 0.015
 
 
 @dataclass(frozen=True, eq=False)
 class HairCurves:
     """The hair through every particle at one instant, in the world.
 
-    position [m] and unit direction of the particles, (n, 3); sideways: a unit vector across the hair that turns with it,
-    (n, 3). path [m] and tangent (unit) at the sections, root first, (n, SECTIONS, 3); along: their distances from the
-    particle as a part of the curve's half length, -1 to 1, (n, SECTIONS). grown: 0 where the hair is still under the
-    scalp, 1 where it has left it for good, (n, SECTIONS).
+    position [m] and unit direction of the particles, (n, 3); sideways: a vector across the hair that turns with it, of
+    length 1, or less where hair strays in narrow locks, (n, 3). path [m] and tangent (unit) at the sections, root first,
+    (n, SECTIONS, 3); along: their distances from the particle as a part of the curve's half length, -1 to 1,
+    (n, SECTIONS). grown: 0 where the hair is still under the scalp or not drawn at all, 1 where it has left the scalp for
+    good, (n, SECTIONS).
     """
 
     position: Floats
@@ -55,6 +60,7 @@ class CurveBuilder:
         self._rootward_mean = _mean_over(tip, root, model.alignment, model.count)
         self._tipward_mean = _mean_over(root, tip, model.alignment, model.count)
         self._hop = float(model.rest_length.mean()) if len(model.rest_length) else model.spacing
+        self._strays = StrayFinder(model, self._rootward_mean)
         self._rest_sideways = _across(model.rest_directions)
         # No curve starts deeper under the scalp than the roots lie.
         self._depth = model.arc_length - model.arc_length.min(initial=0.0)
@@ -64,6 +70,8 @@ class CurveBuilder:
         turn = frame.rotation.as_matrix().T
         position = hair.positions @ turn + frame.translation
         combed = self._combed(hair)
+        strays = self._strays.find(hair.positions, combed)
+        combed = _along_lifelines(strays, hair.positions, combed)
         direction = combed @ turn
         rootward = self._directions(self._rootward_mean, direction)
         tipward = self._directions(self._tipward_mean, direction)
@@ -78,9 +86,13 @@ class CurveBuilder:
                 step = 0.5 * sign / _MIDDLE * length[:, None] * (tangent[:, here] + tangent[:, before])
                 path[:, here] = path[:, before] + step
                 along[:, here] = sign * k / _MIDDLE * length / half_length
+        _follow_lifelines(strays, turn, frame.translation, path, tangent)
         from_scalp = self.model.arc_length[:, None] + half_length * along
         grown = np.clip((from_scalp - _LEAVES_SCALP[0]) / (_LEAVES_SCALP[1] - _LEAVES_SCALP[0]), 0.0, 1.0)
-        return HairCurves(position, direction, self._sideways(combed) @ turn, path, tangent, along, grown)
+        grown *= 1.0 - strays.lost[:, None]
+        sideways = self._sideways(combed) @ turn
+        sideways[strays.which] *= 1.0 - _THINNER * strays.astray[:, None]
+        return HairCurves(position, direction, sideways, path, tangent, along, grown)
 
     def _combed(self, hair: HairOnStage) -> Floats:
         """Unit directions, (n, 3), each smoothed with its neighbours', and with the way from the ones to the others.
@@ -143,6 +155,34 @@ def _at(directions: list[Floats], hops: Floats) -> Floats:
     first, second = weights
     third = 1 - first - second
     return unit(first[:, None] * directions[0] + second[:, None] * directions[1] + third[:, None] * directions[2])
+
+
+def _along_lifelines(strays: Strays, positions: Floats, directions: Floats) -> Floats:
+    """Directions, (n, 3): of particles that stray, the way that their lifelines come."""
+    out, astray = directions.copy(), strays.astray[:, None]
+    way = unit(positions[strays.which] - strays.start)
+    out[strays.which] = unit((1 - astray) * directions[strays.which] + astray * way)
+    return out
+
+
+def _follow_lifelines(strays: Strays, turn: Floats, shift: Floats, path: Floats, tangent: Floats) -> None:
+    """Lay the rootward half of the curves of particles that stray along their lifelines (cubic Hermite curves).
+
+    turn, shift: from the head frame into the world. path, tangent: of ``HairCurves``, changed in place.
+    """
+    which, astray = strays.which, strays.astray[:, None]
+    leaving, arriving = strays.start_direction @ turn, tangent[which, _MIDDLE]
+    end = path[which, _MIDDLE]
+    start = strays.start @ turn + shift - _EARLIER * leaving
+    length = np.linalg.norm(end - start, axis=1, keepdims=True)
+    for section in range(_MIDDLE):
+        t = section / _MIDDLE
+        place = (2 * t**3 - 3 * t**2 + 1) * start + (3 * t**2 - 2 * t**3) * end
+        place += length * ((t**3 - 2 * t**2 + t) * leaving + (t**3 - t**2) * arriving)
+        slope = (6 * t**2 - 6 * t) * (start - end)
+        slope += length * ((3 * t**2 - 4 * t + 1) * leaving + (3 * t**2 - 2 * t) * arriving)
+        path[which, section] += astray * (place - path[which, section])
+        tangent[which, section] = unit((1 - astray) * tangent[which, section] + astray * unit(slope))
 
 
 def _mean_over(rows: Ints, columns: Ints, weights: Floats, n: int) -> csr_array:
