@@ -10,6 +10,8 @@ from .smooth_surface import PosedSurface, SmoothSurface, cross
 
 # A furrow that runs along a border has no room for one of its bulges; the other does not grow without bounds.
 _MOST = 0.2
+# How much bulges are raised to see what that gives.
+_TRIAL = 0.01
 
 
 def balance(bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> tuple[Floats, Floats]:
@@ -24,18 +26,15 @@ def balance(bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> tupl
     constant, linear = np.zeros_like(unit_height), np.zeros_like(unit_height)
     for k in range(len(bed.furrows)):
         own = np.flatnonzero(bed.furrow == k)
-        heights, raised = unit_height[own], unit_height[own] > 0
-
-        def volume(scale: float, bulge: float, own=own, heights=heights, raised=raised) -> float:
-            return _volume(bed, surface, rest, row[own], scale * np.where(raised, bulge, 1.0) * heights)
-
-        whole, half = volume(1.0, 1.0), volume(0.5, 1.0)
-        gain = (volume(1.0, 1.01) - whole) / 0.01
+        heights = unit_height[own]
+        higher = np.where(heights > 0, 1.0 + _TRIAL, 1.0) * heights
+        whole, half, raised = (_volume(bed, surface, rest, row[own], h) for h in (heights, 0.5 * heights, higher))
+        gain = (raised - whole) / _TRIAL
         if gain > 0:
             # V(M) = a M + b M^2, and the bulges give M gain for each part they are raised by.
-            first, second = -(4 * half - whole) / gain, -(2 * whole - 4 * half) / gain
-            constant[own[raised]] = np.clip(first, -_MOST, _MOST)
-            linear[own[raised]] = np.clip(second, -_MOST, _MOST)
+            bulge = own[heights > 0]
+            constant[bulge] = np.clip((whole - 4 * half) / gain, -_MOST, _MOST)
+            linear[bulge] = np.clip((4 * half - 2 * whole) / gain, -_MOST, _MOST)
     return constant, linear
 
 
