@@ -45,12 +45,12 @@ class Photographer:
 
     def picture(self, stage: Stage, document: Document) -> Pixels:
         """The stage as pixels, top row first, (height, width, 3)."""
-        self.renderer.render(stage, document.look, document.camera, self.size)
+        self.renderer.render(stage, document.look, document.camera, self.size, skin=document.skin)
         return self.renderer.read_pixels()
 
     def still(self, stage: Stage, document: Document, size: Size) -> Pixels:
         """The stage in a size of its own, drawn twice as fine as its pixels: (height, width, 3)."""
-        self.renderer.render(stage, document.look, document.camera, size, supersampling=2)
+        self.renderer.render(stage, document.look, document.camera, size, supersampling=2, skin=document.skin)
         return self.renderer.read_pixels()
 
 

@@ -29,9 +29,9 @@ class Animation:
         self.document = document
         self.head = builder.head(document.head)
         self.scalp = builder.scalp(document)
-        as_strands = document.look.hair_as == "strands"
-        self.simulation = None if as_strands else Simulation(builder.build(document), document)
-        self.hairdo = builder.hairdo(document, strands) if as_strands else None
+        hair_as = document.look.hair_as
+        self.simulation = Simulation(builder.build(document), document) if hair_as == "particles" else None
+        self.hairdo = builder.hairdo(document, strands) if hair_as == "strands" else None
         self.skin = builder.skin(document) if document.look.skin_as == "living" else None
         self._shown: tuple[FaceSettings, LivingSkin] | None = None
         self._time = 0.0
@@ -96,9 +96,10 @@ class Animation:
 def needs(document: Document) -> tuple[Any, ...]:
     """All that a build depends on: documents with the same needs are shown by the same Animation."""
     look = document.look
+    hair: tuple[Any, ...] = ()
     if look.hair_as == "strands":
-        hair: tuple[Any, ...] = (document.wisp, document.colour, document.styling, look.strands_shown)
-    else:
+        hair = (document.wisp, document.beard, document.colour, document.styling, look.strands_shown)
+    elif look.hair_as == "particles":
         hair = (document.hair,)
     skin = (document.wrinkle, document.fine) if look.skin_as == "living" else ()
     return (document.head, document.scalp, look.hair_as, *hair, look.skin_as, *skin)

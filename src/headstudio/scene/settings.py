@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ..params import choice, colour, integer, number, switch, text
 
 MOTIONS = ("rest", "shake", "nod", "turn", "tilt", "split", "wind")
-HAIR_AS = ("particles", "strands")
+HAIR_AS = ("particles", "strands", "none")
 SKIN_AS = ("resting", "living")
 STRAND_MODELS = ("fibre", "kajiya-kay")
 SKIN_SHOWS = ("skin", "expansion", "shrinkage", "amplitude", "height")
@@ -101,7 +101,7 @@ class Look:
         "particles",
         "Hair as",
         HAIR_AS,
-        "What hair is made of: loose particles that can be shaken, or the strands of a hairstyle made of wisps.",
+        "What hair is made of: loose particles that can be shaken, the strands of a hairstyle made of wisps, or none.",
     )
     skin_as: str = choice(
         "resting",

@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.head import Head, Part
-from ..head.mesh import Floats, Ints
+from ..head.mesh import Floats, Ints, TriangleMesh
 from .creases import Creases, WrinkledSkin
 from .face import Face
 from .face_settings import FaceSettings
@@ -37,6 +37,10 @@ class SkinSurface:
     def faces(self) -> Ints:
         """Triangles of the refined skin, (M, 3)."""
         return self.bed.refined.faces
+
+    def mesh(self, positions: Floats) -> TriangleMesh:
+        """The refined skin as a mesh at ``positions`` [m], (N, 3)."""
+        return TriangleMesh(positions, self.faces)
 
     @cached_property
     def interpolation(self) -> sparse.csr_array:

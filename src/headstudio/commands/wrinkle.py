@@ -1,0 +1,75 @@
+"""``headstudio wrinkle``: a face with an expression and its wrinkles, as a picture or as a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..io.meshes import MESH_SUFFIXES, write_head
+from ..params import ParameterError, assign
+from ..scene.document import Document
+from ..scene.stage import Stage
+from ..wrinkle.face_settings import SLIDERS
+from .documents import animate
+from .pictures import Photographer, Size, save_picture
+from .reporting import say, working
+
+FACES = {
+    "neutral": {},
+    "thinking": {"thinking": 1.0},
+    "smiling": {"smile": 1.0},
+    "troubled": {"troubled": 1.0},
+    "angry": {"angry": 1.0},
+    "surprised": {"surprise": 1.0},
+    "squinting": {"squint": 1.0},
+    "looking-down": {"look_down": 1.0},
+}
+"""The faces of the thesis, figures 2.10 to 2.13, and more, as sliders."""
+
+
+def face_settings(preset: str | None, expressions: Sequence[str]) -> dict[str, Any]:
+    """Parameters for a face by its name and words such as "smile=0.8". Raises ParameterError."""
+    if preset is not None and preset not in FACES:
+        raise ParameterError(f"there is no face {preset!r}; choose from {', '.join(FACES)}")
+    weights: dict[str, Any] = dict(FACES[preset]) if preset is not None else {}
+    for word in expressions:
+        name, equals, value = word.partition("=")
+        if not equals or name not in SLIDERS:
+            raise ParameterError(f"an expression is written NAME=0.8, NAME one of {', '.join(SLIDERS)}; got {word!r}")
+        weights[name] = value
+    return {f"face.{name}": value for name, value in weights.items()}
+
+
+def with_face(document: Document, preset: str | None, expressions: Sequence[str], wrinkles: bool) -> Document:
+    """The document with a living face. Hair is left out unless the document shows strands. Raises ParameterError."""
+    changes: dict[str, Any] = {"look.skin_as": "living", **face_settings(preset, expressions)}
+    if document.look.hair_as == "particles":
+        changes["look.hair_as"] = "none"
+    if not wrinkles:
+        changes |= {"wrinkle.shown": False, "fine.on": False}
+    return assign(document, changes)
+
+
+def wrinkle(document: Document, out: Path, size: Size) -> None:
+    """Write the face of a document as a picture (.png) or as a mesh. Raises HeadError, ParameterError, OSError."""
+    suffix = out.suffix.lower()
+    if suffix != ".png" and suffix not in MESH_SUFFIXES:
+        raise ParameterError(f"a face is written to .png, {', '.join(MESH_SUFFIXES)}; got {out.name!r}")
+    stage = animate(document).stage()
+    if suffix == ".png":
+        save_picture(Photographer(size).still(stage, document, size), out)
+    else:
+        with working(f"writing {out.name}"):
+            write_mesh(stage, out)
+    say(str(out))
+
+
+def write_mesh(stage: Stage, out: Path) -> None:
+    """The skin and parts on stage as a mesh file [m]. Raises OSError."""
+    skin = stage.skin
+    if skin is None:
+        write_head(stage.head.skin, stage.head.skin.vertex_normals, stage.head.parts, out)
+    else:
+        mesh = skin.surface.mesh(skin.skin.positions)
+        write_head(mesh, skin.skin.normals, skin.parts, out)
