@@ -93,7 +93,9 @@ class Builder:
         ]
         if not faces:
             return hairdo
-        joined = self._part("joined hair", (hairdo, *faces), lambda: join_strands([h.strands for h in (hairdo, *faces)]))
+        joined = self._part(
+            "joined hair", (hairdo, *faces), lambda: join_strands([h.strands for h in (hairdo, *faces)])
+        )
         return replace(hairdo, strands=joined)
 
     def _facial_hair(self, document: Document, patch: FacialPatch, stands_for: float) -> Hairdo:
@@ -121,7 +123,7 @@ class Builder:
         furrows = wrinkle.furrow_set()
         face = self._part("face", head, lambda: Face(head))
         bed = self._part(
-            "furrows", (head, furrows, wrinkle.fineness), lambda: face_bed(head, furrows, wrinkle.fineness)
+            "furrows", (head, wrinkle.lines(), wrinkle.fineness), lambda: face_bed(head, furrows, wrinkle.fineness)
         )
         creases = self._part("creases", (bed, wrinkle), lambda: face_creases(head, wrinkle, bed))
         fine = self._fine_wrinkles(document, bed.layout.texture_map)
