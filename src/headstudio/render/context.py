@@ -52,6 +52,17 @@ def load_program(context: moderngl.Context, vertex: str, fragment: str) -> moder
     return program
 
 
+def release(context: moderngl.Context, *objects: moderngl.Framebuffer | moderngl.Texture | moderngl.Texture3D) -> None:
+    """Free what is needed no more.
+
+    Not in a context that frees by itself what nobody refers to, as that of a window does at the end of a picture: it
+    fails on something that was freed before.
+    """
+    if context.gc_mode != "context_gc":
+        for each in objects:
+            each.release()
+
+
 def set_uniforms(program: moderngl.Program, **values: object) -> None:
     """Set uniforms by name; one that the compiler found no use for is passed over."""
     for name, value in values.items():

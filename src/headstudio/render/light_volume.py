@@ -9,6 +9,7 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 from ..wisp.strands import Singles
+from .context import release
 
 FINEST = 0.004
 """Distance of grid nodes [m], where the hair is not too large for it."""
@@ -54,6 +55,7 @@ class LightVolume:
 
     def __init__(self, context: moderngl.Context, grid: Grid, light: Floats) -> None:
         """``light`` at the nodes near hair: mean and slope for every colour, (k, 3, 4)."""
+        self._context = context
         self._grid = grid
         self._colours = []
         for colour in range(3):
@@ -75,5 +77,4 @@ class LightVolume:
 
     def release(self) -> None:
         """Give the textures back."""
-        for texture in self._colours:
-            texture.release()
+        release(self._context, *self._colours)

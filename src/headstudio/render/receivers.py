@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 
 from ..head.mesh import Floats
+from .context import release
 from .screen import ScreenPasses
 
 _ROW = 512
@@ -28,7 +29,5 @@ def receive(
         asking.use(0)
         screens.draw(name, receivers=0, **uniforms)
     read = np.stack([np.frombuffer(answer.read(), np.float32).reshape(-1, 4) for answer in answers], axis=1)
-    target.release()
-    for texture in (asking, *answers):
-        texture.release()
+    release(context, target, asking, *answers)
     return read[: len(places)].astype(np.float64)
