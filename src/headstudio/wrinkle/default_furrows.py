@@ -1,8 +1,8 @@
 """The wrinkles most faces get, on the face chart, and how they come with age.
 
 Paths are laid along the skin tension lines that anatomy shows: square to the muscle below each of them. Depths and
-widths are within the thesis' 2 to 12 mm for the face and, for fine creases of the lids, below. They are at full
-amplitude; expressions reach some third of it.
+widths are within the thesis' 2 to 12 mm for the face and, for fine creases of the lids, below. Depths are at full
+amplitude: skin that shrinks by a tenth to a third, as faces do, shows that part of them.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ class _Kind(NamedTuple):
 
 
 _KINDS = {
-    "forehead": _Kind(3.6, 2.1, 0.10, 0.42),
-    "glabella": _Kind(3.6, 2.0, 0.15, 0.42),
-    "eye corner": _Kind(2.2, 1.3, 0.10, 0.45),
-    "under eye": _Kind(1.3, 1.5, 0.20, 0.50),
-    "nose": _Kind(1.8, 1.2, 0.35, 0.22),
-    "nasolabial": _Kind(4.0, 3.6, 0.00, 0.50),
-    "marionette": _Kind(3.2, 2.6, 0.30, 0.45),
-    "chin": _Kind(3.0, 2.6, 0.20, 0.40),
-    "neck": _Kind(2.8, 2.2, 0.20, 0.45),
+    "forehead": _Kind(4.4, 2.1, 0.10, 0.33),
+    "glabella": _Kind(5.0, 2.0, 0.15, 0.28),
+    "eye corner": _Kind(5.0, 1.3, 0.10, 0.18),
+    "under eye": _Kind(2.6, 1.5, 0.20, 0.25),
+    "nose": _Kind(4.0, 1.2, 0.35, 0.12),
+    "nasolabial": _Kind(8.0, 3.0, 0.00, 0.22),
+    "marionette": _Kind(6.0, 2.6, 0.30, 0.22),
+    "chin": _Kind(5.0, 2.6, 0.20, 0.22),
+    "neck": _Kind(4.0, 2.2, 0.20, 0.28),
 }
 
 # Name: region, scale of depth, points [mm] from left to right or from the top down. "left" ones have a mirror image.
