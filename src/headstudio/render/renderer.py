@@ -6,30 +6,33 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene.settings import Camera, Look
+from ..scene.settings import TONE_MAPS, Camera, Look
+from ..scene.skin_settings import SkinSettings
 from ..scene.stage import Stage
 from .body import Body, BodyPrograms
 from .fibre import Fibre, colour_absorption
 from .hair import Hair, HairPrograms
+from .living_body import LivingBody, LivingPrograms
 from .overlays import OverlayPass
 from .scene_block import SCENE_DTYPE, linear, scene_block, sky_and_ground
 from .screen import ScreenPasses
 from .skin_paint import coarse_faces
 from .sky_light import FINE, QUICK, Sky, SkyLight, SkyPrograms
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
-from .strand_picture import FINENESS, Progress
+from .strand_picture import FINENESS, STEPS, Progress
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
 from .timing import StageTimer
 from .view import View, camera_view, light_view
 
-# Steps that a final picture is drawn in, so that somebody can watch it and stop it.
-_STEPS = 16
 # Details of the body below this size [m] do not matter to the soft light between strands.
 _BODY_DETAIL = 0.006
 
 
 class _StoppedError(Exception):
     """Somebody stopped a final picture."""
+
+
+_AS_IT_COMES = SkinSettings()
 
 
 class Renderer:
@@ -43,6 +46,7 @@ class Renderer:
         self.context = context
         self.timer = StageTimer(context)
         self._body_programs = BodyPrograms(context)
+        self._living_programs = LivingPrograms(context, self._body_programs)
         self._hair_programs = HairPrograms(context)
         self._strand_programs = StrandPrograms(context)
         self._overlays = OverlayPass(context)
@@ -50,7 +54,7 @@ class Renderer:
         self._sky_in: tuple[object, ...] | None = None
         self._screens = ScreenPasses(context, "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
-        self._body: Body | None = None
+        self._body: Body | LivingBody | None = None
         self._hair: Hair | None = None
         self._strands: StrandHair | None = None
         self._maps: LightTargets | None = None
@@ -70,16 +74,18 @@ class Renderer:
         size: Size = (512, 512),
         target: moderngl.Framebuffer | None = None,
         supersampling: int = 1,
+        skin: SkinSettings = _AS_IT_COMES,
     ) -> moderngl.Texture:
         """Draw the stage, and return the texture it is in; ``target``, if given, gets a copy.
 
         ``size``: width and height in pixels. ``supersampling``: how many times finer to draw before every pixel takes
-        the mean; 2 makes a still smooth and costs four times the time. Raises RenderError for a size that cannot be drawn.
+        the mean; 2 makes a still smooth and costs four times the time. ``skin``: how living skin takes the light. Raises
+        RenderError for a size that cannot be drawn.
         """
         before = self.context.fbo
         try:
             targets = self._targets_for((int(size[0]), int(size[1])), supersampling)
-            self._render(stage, look, camera, targets)
+            self._render(stage, look, camera, targets, skin)
             if target is not None:
                 self.context.copy_framebuffer(target, targets.shown)
             return targets.picture
@@ -113,7 +119,7 @@ class Renderer:
         pixels = np.frombuffer(self._targets.shown.read(components=3, alignment=1), np.uint8)
         return pixels.reshape(height, width, 3)[::-1].copy()
 
-    def _render(self, stage: Stage, look: Look, camera: Camera, targets: PictureTargets) -> None:
+    def _render(self, stage: Stage, look: Look, camera: Camera, targets: PictureTargets, skin: SkinSettings) -> None:
         timer = self.timer
         timer.start()
         with timer.stage("upload"):
@@ -135,7 +141,7 @@ class Renderer:
         maps.map.use(1)
         self._hair_programs.strands.seen(view, float(view.depth(stage.frame.translation)), targets.scene.height).use(2)
         with timer.stage("body"):
-            self._draw_body(body if look.show_head else None, view, look, targets)
+            self._draw_body(body if look.show_head else None, view, look, targets, skin)
         if hair is not None:
             with timer.stage("hair"):
                 self._draw_hair(hair, view, look, targets)
@@ -147,17 +153,28 @@ class Renderer:
         with timer.stage("develop"):
             self._develop_picture(look, targets)
 
-    def _pull(self, stage: Stage, look: Look) -> tuple[Body, Hair | None]:
-        if self._body is None or self._body.head is not stage.head:
-            self._body = Body(self.context, self._body_programs, stage.head)
+    def _pull(self, stage: Stage, look: Look) -> tuple[Body | LivingBody, Hair | None]:
+        body = self._pull_body(stage, look)
         hair = stage.hair if look.show_hair else None
-        self._body.set_roots(hair.model if hair else None)
+        body.set_roots(hair.model if hair else None)
         if hair is None or hair.model.count == 0:
-            return self._body, None
+            return body, None
         if self._hair is None or not self._hair.suits(stage.head, hair.model, look.ribbons):
             self._hair = Hair(self.context, self._hair_programs, stage.head, hair.model, look.ribbons)
         self._hair.place(hair, stage.frame, look)
-        return self._body, self._hair
+        return body, self._hair
+
+    def _pull_body(self, stage: Stage, look: Look) -> Body | LivingBody:
+        known = self._body
+        if stage.skin is None:
+            if not isinstance(known, Body) or known.head is not stage.head:
+                known = Body(self.context, self._body_programs, stage.head)
+        else:
+            if not isinstance(known, LivingBody) or known.surface is not stage.skin.surface:
+                known = LivingBody(self.context, self._living_programs, stage.skin.surface)
+            known.pose(stage.skin, look)
+        self._body = known
+        return known
 
     def _pull_strands(self, stage: Stage, look: Look) -> StrandHair | None:
         if stage.strands is None or stage.strands.count == 0 or not look.show_hair:
@@ -198,7 +215,7 @@ class Renderer:
         # In steps, so that the texels of the maps do not creep over the head as the hair moves.
         return light_view(look, centre, np.ceil(radius / 0.02) * 0.02)
 
-    def _cast_shadows(self, body: Body | None, look: Look, maps: LightTargets) -> None:
+    def _cast_shadows(self, body: Body | LivingBody | None, look: Look, maps: LightTargets) -> None:
         with self.context.scope(maps.shadow, moderngl.DEPTH_TEST):
             maps.shadow.clear(depth=1.0)
             if body is not None and look.shadows:
@@ -209,17 +226,20 @@ class Renderer:
         if hair is not None:
             hair.shed_light(light, look, maps)
 
-    def _draw_body(self, body: Body | None, view: View, look: Look, targets: PictureTargets) -> None:
-        with self.context.scope(targets.surface, moderngl.DEPTH_TEST):
-            targets.surface.clear(view.far, depth=1.0)
+    def _draw_body(
+        self, body: Body | LivingBody | None, view: View, look: Look, targets: PictureTargets, skin: SkinSettings
+    ) -> None:
+        surface = targets.surface if body is None else body.surface_target(targets)
+        with self.context.scope(surface, moderngl.DEPTH_TEST):
+            surface.clear(view.far, depth=1.0)
             if body is not None:
-                body.draw_surface(view)
+                body.draw_surface(view, look, skin, targets)
         targets.scene.depth_mask = False
         targets.scene.clear(0.0, 0.0, 0.0, 0.0)
         if body is None:
             return
         with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
-            body.light_surface(view, look, targets)
+            body.light_surface(view, look, skin, targets)
         with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             targets.scene.depth_mask = True
@@ -237,18 +257,15 @@ class Renderer:
         maps.depth.use(0)
         maps.map.use(1)
         strands.shade(strand_material(look))
-        if self._final:
-            with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
-                targets.scene.depth_mask = True
-                for done in strands.draw_opaque(view, targets.scene.height, _STEPS):
-                    self.context.finish()
-                    if not self._final(done, _STEPS):
-                        raise _StoppedError
-            return
         with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
             targets.scene.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-            strands.draw_blended(view, stage.frame, targets.scene.height)
+            steps = STEPS if self._final else 1
+            for done in strands.draw(view, stage.frame, targets.scene.height, steps):
+                if self._final:
+                    self.context.finish()
+                    if not self._final(done, steps):
+                        raise _StoppedError
 
     def _develop_picture(self, look: Look, targets: PictureTargets) -> None:
         width, height = targets.size
@@ -259,7 +276,13 @@ class Renderer:
         with self.context.scope(targets.shown, moderngl.NOTHING):
             targets.reduced.use(0)
             background = tuple(linear(look.background))
-            self._screens.draw("develop", linear_picture=0, background=background, size=(float(width), float(height)))
+            self._screens.draw(
+                "develop",
+                linear_picture=0,
+                background=background,
+                size=(float(width), float(height)),
+                tone_map=TONE_MAPS.index(look.tone_map),
+            )
 
     def _targets_for(self, size: Size, supersampling: int) -> PictureTargets:
         known = self._targets

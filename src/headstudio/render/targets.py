@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import moderngl
 
@@ -34,6 +35,25 @@ class PictureTargets:
     distance: moderngl.Texture
     shown: moderngl.Framebuffer
     picture: moderngl.Texture
+
+    @cached_property
+    def skin(self) -> SkinTargets:
+        """What living skin needs besides; made for the first picture that shows any."""
+        context, fine = self.surface.ctx, self.normal.size
+        place = _texture(context, fine, 2, "f4", moderngl.NEAREST)
+        state = _texture(context, fine, 4, "f1", moderngl.NEAREST)
+        surface = context.framebuffer([self.normal, self.paint, self.distance, place, state], self.depth)
+        return SkinTargets(surface, place, state)
+
+
+@dataclass(frozen=True, eq=False)
+class SkinTargets:
+    """What living skin is like at every pixel, in ``surface``: where it lies in the map of its fine wrinkles (the whole
+    precision of single floats: a close look is nearer than a texel), and how far these are grown."""
+
+    surface: moderngl.Framebuffer
+    place: moderngl.Texture
+    state: moderngl.Texture
 
 
 @dataclass(frozen=True, eq=False)

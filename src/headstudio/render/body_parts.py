@@ -1,0 +1,88 @@
+"""Eyes, teeth, tongue, lashes: what moves with the head and is no skin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+
+from ..head.head import Head, Part
+from ..head.mesh import Floats
+from ..scene.settings import Look
+from .buffers import bytes_of, floats_of, indices_of
+from .context import set_uniforms
+from .scene_block import linear
+from .skin_paint import standing_out
+from .sky import hidden_from_sky
+
+# How part.frag tells the parts apart.
+_KINDS = {"eye": 0, "teeth": 1, "tongue": 2, "lashes": 3, "brows": 3, "other": 4}
+
+
+def hidden_of_head(context: moderngl.Context, head: Head) -> tuple[Floats, list[Floats]]:
+    """The part of the sky that the skin at rest hides from every vertex of the skin, (n,), and of each part."""
+    meshes = [head.skin, *(part.mesh for part in head.parts)]
+    points = np.concatenate([mesh.vertices for mesh in meshes])
+    normals = np.concatenate([mesh.vertex_normals for mesh in meshes])
+    hidden = hidden_from_sky(context, head.skin, points, normals)
+    skin, *parts = np.split(hidden, np.cumsum([len(mesh.vertices) for mesh in meshes])[:-1])
+    return skin, parts
+
+
+class BodyParts:
+    """The parts of one head; what is painted on them is found on the head at rest, once."""
+
+    def __init__(
+        self, context: moderngl.Context, program: moderngl.Program, head: Head, hidden: Sequence[Floats]
+    ) -> None:
+        """hidden: of the sky, of every vertex of each part, see ``hidden_of_head``."""
+        self._program = program
+        self._shown = list(head.parts)
+        self._surfaces = [context.buffer(floats_of(_surface(part))) for part in head.parts]
+        self._arrays = [
+            context.vertex_array(
+                program,
+                [
+                    (surface, "3f 3f", "position", "normal"),
+                    (context.buffer(bytes_of(np.column_stack([dark, standing_out(head, part)]))), "2f1", "paint"),
+                ],
+                context.buffer(indices_of(part.mesh.faces)),
+            )
+            for part, surface, dark in zip(head.parts, self._surfaces, hidden)
+        ]
+        # Lashes are translucent, and so the last.
+        self._order = sorted(range(len(head.parts)), key=lambda k: _KINDS[head.parts[k].kind] == _KINDS["lashes"])
+
+    def move(self, parts: Sequence[Part]) -> None:
+        """Show the parts as they are now; one that is the same object as before is not sent again."""
+        for k, part in enumerate(parts):
+            if part is not self._shown[k]:
+                self._surfaces[k].write(floats_of(_surface(part)))
+                self._shown[k] = part
+
+    def draw(self, look: Look) -> None:
+        """Into the framebuffer in use; texture 0 is the shadow map, 1 the light map."""
+        set_uniforms(
+            self._program,
+            shadow_map=0,
+            light_map=1,
+            skin_colour=tuple(linear(look.skin_colour)),
+            hair_colour=tuple(linear(look.hair_colour)),
+            iris_colour=tuple(linear(look.iris_colour)),
+        )
+        for k in self._order:
+            self._draw_part(self._shown[k], self._arrays[k])
+
+    def _draw_part(self, part: Part, array: moderngl.VertexArray) -> None:
+        kind = part.kind
+        if part.centre is not None and part.axis is not None:
+            set_uniforms(self._program, ball=(*part.centre.tolist(), part.radius), pupil=tuple(part.axis.tolist()))
+        elif kind == "eye":
+            kind = "other"
+        set_uniforms(self._program, kind=_KINDS[kind])
+        array.render()
+
+
+def _surface(part: Part) -> Floats:
+    return np.concatenate([part.mesh.vertices, part.mesh.vertex_normals], axis=1)

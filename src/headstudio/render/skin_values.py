@@ -1,0 +1,59 @@
+"""Figures of a living skin as colours on it, for whoever tunes wrinkles: what ``look.skin_shows`` names."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..head.mesh import Floats
+from ..wrinkle.living_skin import LivingSkin
+from .scene_block import linear
+from .skin_colour import web_colour
+
+# Ends of the scales: area doubled or halved, lengths by a quarter, and displacement of so many metres.
+_SHRINKAGE = 0.25
+_HEIGHT = 0.003
+
+# Blue below, white for nothing, red above (two ends equally dark); and from dark to light for what begins at 0.
+_DIVERGING = ("#1d4f91", "#5d96c8", "#b8d3e6", "#f2f0ec", "#f0bfa4", "#d36f5b", "#8e1b34")
+_RISING = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")
+
+
+def shown_values(shows: str, skin: LivingSkin) -> Floats:
+    """Where every vertex stands on the scale, 0 to 1, (N,). ``shows``: a word of SKIN_SHOWS other than "skin"."""
+    match shows:
+        case "expansion":
+            return 0.5 + 0.5 * np.log2(np.maximum(skin.expansion, 1e-3))
+        case "shrinkage":
+            return 0.5 + 0.5 * _shrinkage(skin) / _SHRINKAGE
+        case "amplitude":
+            return _furrow_values(skin, skin.skin.amplitude, skin.amplitudes.mean(axis=1))
+        case _:
+            return 0.5 + 0.5 * skin.skin.height / _HEIGHT
+
+
+def scale_colours(shows: str, count: int = 256) -> Floats:
+    """The colours of a scale, linear RGB, (count, 3)."""
+    stops = _RISING if shows == "amplitude" else _DIVERGING
+    colours = np.array([linear(web_colour(stop)) for stop in stops])
+    place = np.linspace(0, len(stops) - 1, count)
+    return np.stack([np.interp(place, np.arange(len(stops)), colours[:, k]) for k in range(3)], axis=1)
+
+
+def _shrinkage(skin: LivingSkin) -> Floats:
+    """Across the furrow where there is one, across the fine wrinkles elsewhere; the larger of both fields, (N,)."""
+    surface = skin.surface
+    everywhere = np.zeros(len(skin.posed))
+    if surface.fine is not None:
+        part = surface.bed.layout.part.vertices
+        fields = surface.fine.shrinkage(skin.posed[part])
+        everywhere[part] = np.where(np.abs(fields[:, 0]) > np.abs(fields[:, 1]), fields[:, 0], fields[:, 1])
+    return _furrow_values(skin, skin.skin.shrinkage, surface.spread(everywhere))
+
+
+def _furrow_values(skin: LivingSkin, of_entries: Floats, elsewhere: Floats) -> Floats:
+    """Values of the bed's entries at their vertices, the one of the nearest furrow where there are several, (N,)."""
+    bed = skin.surface.bed
+    far_first = np.argsort(-bed.beside.distance, kind="stable")
+    values = elsewhere.copy()
+    values[bed.vertex[far_first]] = of_entries[far_first]
+    return values
