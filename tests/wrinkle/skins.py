@@ -99,10 +99,10 @@ def line_between(start: tuple[float, float], end: tuple[float, float], **values:
     return replace(furrow, **values)
 
 
-def covering_counts(texture_map: TextureMap, work: int = 1_500_000, seed: int = 1) -> np.ndarray:
+def covering_counts(texture_map: TextureMap, work: int = 500_000, seed: int = 1) -> np.ndarray:
     """How many triangles cover random points within triangles of the map, by looking at every triangle for each."""
     rng = np.random.default_rng(seed)
-    count = min(2000, work // len(texture_map.corner_uv))
+    count = min(400, work // len(texture_map.corner_uv))
     corners = texture_map.corner_uv
     chosen = rng.integers(len(corners), size=count)
     weights = rng.dirichlet([1.0, 1.0, 1.0], count)
