@@ -1,5 +1,4 @@
 #version 330
-uniform bool blended;
 in vec3 v_colour;
 in float v_across;
 flat in float v_half_width;
@@ -7,10 +6,7 @@ out vec4 colour;
 
 // The part of a pixel that a strand covers: thinner than a pixel it becomes coverage.
 void main() {
-    float cover = 1.0;
-    if (blended) {
-        vec2 pixel = clamp(vec2(v_across - 0.5, v_across + 0.5), -v_half_width, v_half_width);
-        cover = pixel.y - pixel.x;
-    }
+    vec2 pixel = clamp(vec2(v_across - 0.5, v_across + 0.5), -v_half_width, v_half_width);
+    float cover = pixel.y - pixel.x;
     colour = vec4(v_colour * cover, cover);
 }

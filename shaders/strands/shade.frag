@@ -12,7 +12,8 @@ uniform bool coloured;         // every point has a colour of its own
 uniform vec3 hair_absorption;  // else: per radius
 uniform float colour_slope;
 uniform bool fibre_model;      // Marschner's lobes, or Kajiya and Kay's
-uniform float widening;
+uniform float light_widening;  // how many times too thick strands are in the light's map
+uniform int light_points;      // so many points are of strands that are in it
 uniform mat4 hair_box;         // of the light, around the hair alone, from the world
 uniform float box_size;        // [m]
 out vec4 radiance_;
@@ -52,8 +53,9 @@ void main() {
     float phi = azimuth_between(along, to_light.xyz, to_eye);
 
     vec3 at = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
-    float width = 2.0 * texelFetch(points, texel, 0).w * widening * float(textureSize(near_counts, 0).x) / box_size;
-    float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at, 0.75 * min(width, 1.0));
+    float width = 2.0 * texelFetch(points, texel, 0).w * light_widening * float(textureSize(near_counts, 0).x) / box_size;
+    float own = texel.x + texel.y * point_row < light_points ? 0.75 * min(width, 1.0) : 0.0;
+    float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at, own);
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
     mat4x3 sent_in = albedo(sin_in, absorption);
     vec3 endless, passed;

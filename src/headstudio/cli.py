@@ -160,7 +160,7 @@ def render(
     view: Annotated[
         str | None,
         typer.Option(
-            help="front, three-quarter, side, left, right, back or top; for strands, a JSON file: the guide says what."
+            help="front, three-quarter, side, left, right, back or top; for strands a JSON file, see the guide."
         ),
     ] = None,
     motion: MotionOption = None,

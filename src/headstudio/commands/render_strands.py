@@ -19,7 +19,7 @@ from ..params import ParameterError
 from ..render.context import headless_context
 from ..render.fibre import Fibre, melanin_absorption
 from ..render.strand_hair import StrandMaterial
-from ..render.strand_picture import FINENESS, StrandScene, shown, strand_picture
+from ..render.strand_picture import StrandScene, shown, strand_picture
 from ..render.view import perspective_view
 from ..wisp.strands import Strands
 from .hair_sources import file_strands
@@ -39,7 +39,7 @@ class StatedView:
     eye, target: of the camera [m]; +Y is up. fov_degrees: across and up. size: pixels a side. hair_melanin, hair_redness,
     hair_roughness: 0 to 1. hair_radius_root, hair_radius_tip: of a strand [m]. sun_direction: towards the sun, of any
     length. sun_strength: irradiance [W/m2]. ambient: radiance from everywhere, also the background. skin_rgb: linear
-    albedo. samples: a pixel, at least.
+    albedo.
     """
 
     eye: Triple
@@ -55,13 +55,11 @@ class StatedView:
     sun_strength: float
     ambient: float
     skin_rgb: Triple
-    samples: int = 2 * FINENESS**2
 
 
 _RANGES: dict[str, tuple[float, float]] = {
     "fov_degrees": (0.1, 170.0),
     "size": (1, _MOST_PIXELS),
-    "samples": (1, 4096),
     "hair_melanin": (0.0, 1.0),
     "hair_redness": (0.0, 1.0),
     "hair_roughness": (0.01, 1.0),
@@ -85,7 +83,7 @@ def read_view(path: Path) -> StatedView:
     for field in fields(StatedView):
         if field.name in stated:
             values[field.name] = _checked(path.name, field.name, stated[field.name], str(field.type))
-        elif field.name != "samples":
+        else:
             raise ParameterError(f"{path.name} does not say {field.name}")
     view = StatedView(**values)
     if math.dist(view.eye, view.target) < _REQUIRED_DISTANCE:
@@ -103,7 +101,6 @@ def render_stated(strands: Path, heads: list[str], view: str | None, out: Path) 
     stated = read_view(Path(view))
     scene = _scene(file_strands(strands), [_plain_mesh(head) for head in heads], stated)
     camera = perspective_view(np.array(stated.eye), np.array(stated.target), math.radians(stated.fov_degrees), 1.0)
-    passes = -(-stated.samples // FINENESS**2)
     context = headless_context()
     with counting("drawing", 1) as bar:
 
@@ -111,7 +108,7 @@ def render_stated(strands: Path, heads: list[str], view: str | None, out: Path) 
             bar.update(bar.task_ids[0], completed=done, total=of)
             return True
 
-        picture = strand_picture(context, scene, camera, stated.size, passes, progress)
+        picture = strand_picture(context, scene, camera, stated.size, progress=progress)
     if picture is not None:
         save_picture(shown(picture), out)
         say(str(out))

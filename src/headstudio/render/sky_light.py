@@ -29,8 +29,8 @@ class SkyDetail:
     strands: int
 
 
-FINE = SkyDetail(pairs=16, strands=5_000)
-QUICK = SkyDetail(pairs=7, strands=1_500)
+FINE = SkyDetail(pairs=16, strands=2_500)
+QUICK = SkyDetail(pairs=6, strands=1_000)
 
 MAP_SIZE = 192
 BODY_SIZE = 256

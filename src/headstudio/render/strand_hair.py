@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import moderngl
 import numpy as np
@@ -23,6 +24,9 @@ from .targets import LightTargets
 from .view import View, bounding_sphere, parallel_view
 
 _DEPTH_LEVELS = 65535
+
+LIGHT_STRANDS = 20_000
+"""Strands, a fair sample of all, that are drawn into the light's map: enough to cover its texels many times."""
 
 
 @dataclass(frozen=True)
@@ -61,11 +65,13 @@ class StrandHair:
         self.widening = strands.stands_for * packed.count / max(self.shown, 1)
         self._shown_points = int(packed.first[self.shown])
         self._textures = StrandTextures(context, packed)
-        indices = strip_indices(packed.first, self.shown)
+        lit_by = min(LIGHT_STRANDS, self.shown)
+        self._light_widening = strands.stands_for * packed.count / max(lit_by, 1)
+        self._light_points = int(packed.first[lit_by])
+        indices = strip_indices(packed.first, lit_by)
         self._indices = len(indices)
         strips = context.buffer(indices)
         self._light_strips = LightStrips(context, programs.opacity, self._textures, strips)
-        self._whole = context.vertex_array(programs.ribbon, [], strips)
         self._pieces, amid = piece_indices(packed.first, self.shown)
         self._amid = packed.points[amid, :3]
         self._sorted = context.buffer(reserve=max(self._pieces.nbytes, 4))
@@ -100,7 +106,7 @@ class StrandHair:
         view = parallel_view(-light.forward, centre, self._sphere.radius)
         lit_by = (view.clip_from_world.tobytes(), pose.tobytes(), size)
         if self._lit_by != lit_by:
-            self.opacity.fill(self._light_strips, self._indices, self.widening, pose, [view])
+            self.opacity.fill(self._light_strips, self._indices, self._light_widening, pose, [view])
             self._hair_view, self._lit_by = view, lit_by
         from_light = view.clip_from_world @ np.linalg.inv(light.clip_from_world)
         with self._context.scope(maps.light, moderngl.NOTHING):
@@ -120,7 +126,7 @@ class StrandHair:
 
     def see_from_sky(self, sky_light: SkyLight) -> None:
         """Show the hair to the sky: as many of the strands, spread evenly over all, as it can look through."""
-        strands = min(sky_light.detail.strands, self.shown)
+        strands = min(sky_light.detail.strands, LIGHT_STRANDS, self.shown)
         indices = int(2 * self._first[strands] + strands)
         sky_light.see_hair(
             self._light_strips, indices, self.strands.stands_for * self.strands.count / strands, self._sphere
@@ -165,7 +171,8 @@ class StrandHair:
         uniforms = {
             "shadow_map": 0, "light_map": 1, "points": 2, "tangents": 3, "hair_colours": 4,
             "around_table": 5, "spread_table": 6, "albedo_table": 7,
-            "widening": self.widening,
+            "light_widening": self._light_widening,
+            "light_points": self._light_points,
             "coloured": textures.colour is not None,
             "hair_absorption": material.absorption,
             "colour_slope": colour_slope(fibre.radial_roughness),
@@ -179,8 +186,11 @@ class StrandHair:
             self._shade_target.viewport = (0, 0, POINT_ROW, max(rows, 1))
             self._programs.screens.draw("shade", **uniforms, **self.light_uniforms(8), **self._soft.bind(11))
 
-    def draw_blended(self, view: View, frame: HeadFrame, height: int) -> None:
-        """Strands in order, farthest first, over the framebuffer in use, ``height`` pixels high."""
+    def draw(self, view: View, frame: HeadFrame, height: int, steps: int = 1) -> Iterator[int]:
+        """Strands in order, farthest first, over the framebuffer in use, ``height`` pixels high.
+
+        They are drawn in so many steps: yields 1, 2, 3 ... after each.
+        """
         eye = frame.rotation.inv().apply(view.eye - frame.translation)
         away = np.linalg.norm(self._amid - eye.astype(np.float32), axis=1)
         low, high = (float(away.min()), float(away.max())) if len(away) else (0.0, 1.0)
@@ -188,26 +198,19 @@ class StrandHair:
         levels = ((high - away) * (_DEPTH_LEVELS / max(high - low, 1e-6))).astype(np.uint16)
         order = np.argsort(levels, kind="stable")
         self._sorted.write(self._pieces[order])
-        self._use(view, height, blended=True)
-        self._sorted_array.render(moderngl.TRIANGLE_STRIP)
-
-    def draw_opaque(self, view: View, height: int, steps: int) -> Iterator[int]:
-        """Strands exactly as wide as they are, hidden by what is in front of them: in so many steps, 1, 2, 3 ..."""
-        bounds = np.linspace(0, self.shown, steps + 1).astype(int)
-        indices = 2 * self._first[bounds] + bounds
-        for step in range(steps):
-            self._use(view, height, blended=False)
-            start, end = int(indices[step]), int(indices[step + 1])
+        bounds = np.linspace(0, len(order), steps + 1).astype(int) * self._pieces.shape[1]
+        for step, (start, end) in enumerate(pairwise(bounds.tolist())):
+            self._use(view, height)
             if end > start:
-                self._whole.render(moderngl.TRIANGLE_STRIP, vertices=end - start, first=start)
+                self._sorted_array.render(moderngl.TRIANGLE_STRIP, vertices=end - start, first=start)
             yield step + 1
 
-    def _use(self, view: View, height: int, blended: bool) -> None:
+    def _use(self, view: View, height: int) -> None:
         self._textures.points.use(2)
         self._textures.tangents.use(3)
         self._shades.use(4)
         set_uniforms(
-            self._programs.ribbon, points=2, tangents=3, shades=4, widening=self.widening, blended=blended,
+            self._programs.ribbon, points=2, tangents=3, shades=4, widening=self.widening,
             metres_per_pixel=2.0 / (view.focal * height),
         )  # fmt: skip
 

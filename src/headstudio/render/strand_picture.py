@@ -1,8 +1,8 @@
-"""A picture in final quality of strands on plain meshes under a sun and an even sky: every strand, many samples a pixel.
+"""A picture in final quality of strands on plain meshes under a sun and an even sky, to be laid beside a path tracer's.
 
-No strand is blended: each of many pictures, moved by parts of a pixel, shows every strand as wide as it is and hidden by
-what is in front of it. Their mean is what a camera sees, in any order and of any number of strands, and a strand thinner
-than a pixel covers as much of the mean as it covers of the pixel.
+Every strand is drawn, in the order of distance, as wide as it is: thinner than a pixel it covers a part of it. Opaque
+strands in many shifted pictures would come to the same in the end, but with ten samples a pixel a strand that is a tenth
+of a pixel wide is a row of dots, and a path tracer's noise is no model to follow.
 """
 
 from __future__ import annotations
@@ -26,9 +26,11 @@ from .targets import light_targets, picture_targets
 from .view import View, bounding_sphere, parallel_view
 
 SHADOW_SIZE = 1024
-STEPS = 8
-FINENESS = 4
-"""Samples a pixel along each side, in every pass."""
+FINENESS = 2
+"""How many times finer than its pixels a final picture is drawn, along each side."""
+
+STEPS = 16
+"""Steps that a final picture is drawn in, so that somebody can watch it and stop it."""
 
 BOUNCES = 2
 
@@ -58,7 +60,7 @@ def strand_picture(
     scene: StrandScene,
     view: View,
     size: int,
-    passes: int = 1,
+    fineness: int = FINENESS,
     progress: Progress | None = None,
 ) -> NDArray[np.float32] | None:
     """The scene as linear light, top row first, (size, size, 3); None if ``progress`` stopped it."""
@@ -95,26 +97,26 @@ def strand_picture(
     hair.shade(scene.material)
 
     screens = ScreenPasses(context, "reduce")
-    targets = picture_targets(context, (size, size), FINENESS)
-    total = np.zeros((size, size, 4), np.float32)
+    targets = picture_targets(context, (size, size), fineness)
     red, green, blue = (float(part) for part in scene.sky)
-    for k in range(passes):
-        block.write(_scene_block(view, light, scene, _within_sample(k) * 2 / (size * FINENESS)).tobytes())
-        with context.scope(targets.scene, moderngl.DEPTH_TEST):
-            targets.scene.depth_mask = True
-            targets.scene.clear(red, green, blue, 1.0, depth=1.0)
-            maps.depth.use(0)
-            maps.map.use(1)
-            body.draw(scene.diffuse, lost=tuple(lost), shadow_map=0, light_map=1, **hair.light_uniforms(8))
-            for step in hair.draw_opaque(view, size * FINENESS, STEPS):
-                context.finish()
-                if progress is not None and not progress(k * STEPS + step, passes * STEPS):
-                    return None
-        with context.scope(targets.reduced_target, moderngl.NOTHING):
-            targets.colour.use(0)
-            screens.draw("reduce", fine=0, supersampling=FINENESS)
-        total += np.frombuffer(targets.reduced_target.read(components=4, dtype="f2"), np.float16).reshape(total.shape)
-    return np.ascontiguousarray(total[::-1, :, :3] / np.float32(passes))
+    with context.scope(targets.scene, moderngl.DEPTH_TEST):
+        targets.scene.depth_mask = True
+        targets.scene.clear(red, green, blue, 1.0, depth=1.0)
+        maps.depth.use(0)
+        maps.map.use(1)
+        body.draw(scene.diffuse, lost=tuple(lost), shadow_map=0, light_map=1, **hair.light_uniforms(8))
+    with context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
+        targets.scene.depth_mask = False
+        context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+        for step in hair.draw(view, HeadFrame(), size * fineness, STEPS):
+            context.finish()
+            if progress is not None and not progress(step, STEPS):
+                return None
+    with context.scope(targets.reduced_target, moderngl.NOTHING):
+        targets.colour.use(0)
+        screens.draw("reduce", fine=0, supersampling=fineness)
+    picture = np.frombuffer(targets.reduced_target.read(components=4, dtype="f2"), np.float16)
+    return picture.reshape(size, size, 4)[::-1, :, :3].astype(np.float32)
 
 
 def shown(picture: NDArray[np.float32]) -> NDArray[np.uint8]:
@@ -124,12 +126,9 @@ def shown(picture: NDArray[np.float32]) -> NDArray[np.uint8]:
     return np.rint(255 * bent).astype(np.uint8)
 
 
-def _scene_block(view: View, light: View, scene: StrandScene, shift: Floats | None = None) -> NDArray[np.void]:
+def _scene_block(view: View, light: View, scene: StrandScene) -> NDArray[np.void]:
     block = np.zeros(1, SCENE_DTYPE)
-    moved = np.eye(4)
-    if shift is not None:
-        moved[:2, 3] = shift
-    block["clip_from_world"] = (moved @ view.clip_from_world).T
+    block["clip_from_world"] = view.clip_from_world.T
     block["light_from_world"] = light.clip_from_world.T
     block["eye"][0, :3] = view.eye
     block["to_light"][0, :3] = -light.forward
@@ -137,8 +136,3 @@ def _scene_block(view: View, light: View, scene: StrandScene, shift: Floats | No
     block["sky"][0, :3] = block["ground"][0, :3] = scene.sky
     block["shadow"][0] = 1.0, light.far, view.near, view.far
     return block
-
-
-def _within_sample(k: int) -> Floats:
-    """By how much pass k moves the picture [samples], (2,): a sequence that fills a square evenly (Roberts 2018, R2)."""
-    return (k * np.array([0.7548776662466927, 0.5698402909980532]) + 0.5) % 1.0 - 0.5
