@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .application import Application
 
 HEAD_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
-TOOL_KEYS = "QWERT"
+TOOL_KEYS = "QWERTYUIOP"
 VIEW_KEYS = {"front": "1", "left": "3", "right": "Ctrl+3", "back": "9", "top": "7", "three-quarter": "0"}
 
 

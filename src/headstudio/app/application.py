@@ -43,6 +43,11 @@ class Application:
         }
         self.editor = EDITORS[0]
         self.viewport = Viewport(studio, window.gl, self.tools[0])
+        self._steps = {
+            editor.label: editor.steps(self.rows, self.viewport, self._tools[editor.label])
+            for editor in EDITORS
+            if editor.steps is not None
+        }
         self.actions = Actions(self)
         self.commands = self.actions.commands()
         self.sidebar = Sidebar(self.rows, self.viewport)
@@ -96,6 +101,7 @@ class Application:
 
     def _draw(self) -> None:
         self.ui.new_frame()
+        self._follow_hair()
         if not self.dialogs.asking:
             run_pressed(self.commands)
         top = shell.menu_bar(self.ui, self.commands, {"Open...": self.actions.recent_menu})
@@ -116,25 +122,36 @@ class Application:
 
     def _draw_left(self) -> None:
         self._draw_tabs()
-        self.sidebar.draw(self.ui, self.tools)
+        self.sidebar.draw(self.ui, self.editor, self.tools)
 
     def _draw_tabs(self) -> None:
-        """The tabs of the editors; a single editor needs none."""
-        if len(EDITORS) == 1:
-            return
-        if imgui.begin_tab_bar("##editors"):
-            for editor in EDITORS:
-                opened, _ = imgui.begin_tab_item(editor.label)
-                self.ui.note(editor.label)
-                if opened:
-                    imgui.end_tab_item()
-                    self._open_editor(editor)
-            imgui.end_tab_bar()
+        """The tabs of the editors, side by side over the whole width."""
+        gap = self.ui.px(2)
+        width = (imgui.get_content_region_avail().x - gap * (len(EDITORS) - 1)) / len(EDITORS)
+        with self.ui.within("Editors"):
+            for k, editor in enumerate(EDITORS):
+                if k:
+                    imgui.same_line(0, gap)
+                if self.ui.button(editor.label, on=editor is self.editor, width=width):
+                    self.open_editor(editor)
 
-    def _open_editor(self, editor: Editor) -> None:
-        if editor is not self.editor:
-            self.editor = editor
-            self.viewport.tool = self.tools[0]
+    def open_editor(self, editor: Editor) -> None:
+        """Open a tab; hair is shown as what the tab is about."""
+        if editor is self.editor:
+            return
+        self.editor = editor
+        self.viewport.tool = self.tools[0]
+        self.commands = self.actions.commands()
+        self.studio.work.hair_as = editor.hair_as
+
+    def _follow_hair(self) -> None:
+        """A project that was opened, or a build that was cancelled, may show other hair than the open tab is about."""
+        hair_as = self.studio.work.hair_as
+        if hair_as != self.editor.hair_as:
+            for editor in EDITORS:
+                if editor.hair_as == hair_as:
+                    self.open_editor(editor)
+                    return
 
     def _draw_view(self, layout: shell.Layout) -> None:
         view = layout.view
@@ -145,6 +162,8 @@ class Application:
 
     def _draw_right(self) -> None:
         self.rows.search(self.ui)
+        if self.editor.label in self._steps and not self.rows.wanted:
+            self._steps[self.editor.label].draw(self.ui)
         for panel in self.editor.panels:
             self.rows.panel(self.ui, panel, self._draw_head_sources if panel.part == "head" else None)
 

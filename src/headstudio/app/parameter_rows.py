@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -11,9 +12,23 @@ from imgui_bundle import imgui
 from ..params import Parameter, walk
 from ..scene.document import Document
 from . import parameter_widgets, theme
-from .editors import Panel
+from .parameter_widgets import ItemT
 from .studio import Studio
 from .ui import Ui
+
+
+@dataclass(frozen=True)
+class Panel:
+    """The parameters of one part of the document. ``elsewhere``: fields that another part of the window shows.
+
+    in_steps: the steps of the editor show it, so that it is drawn only for what a search finds in it.
+    """
+
+    title: str
+    part: str
+    opened: bool = True
+    elsewhere: tuple[str, ...] = ()
+    in_steps: bool = False
 
 
 @cache
@@ -43,7 +58,7 @@ class ParameterRows:
             and path.rpartition(".")[2] not in panel.elsewhere
             and self._matches(path, panel)
         ]
-        if not paths:
+        if not paths or (panel.in_steps and not self.wanted):
             return
         if self.wanted:
             imgui.set_next_item_open(True)
@@ -63,6 +78,17 @@ class ParameterRows:
             self._complaint = edit.complaint
             self.set(path, edit.value)
 
+    def rows(self, ui: Ui, part: str, fields: Iterable[str]) -> None:
+        """Several parameters of one part of the document."""
+        for field in fields:
+            self.row(ui, f"{part}.{field}")
+
+    def item(self, ui: Ui, item: ItemT) -> ItemT:
+        """The parameters of something in a list; returns it as it is after what the user did."""
+        item, complaint = parameter_widgets.edit_item(ui, item)
+        self._complaint = complaint or self._complaint
+        return item
+
     def tick(self, ui: Ui, path: str) -> None:
         """A switch as a box with its label behind it."""
         declared, _ = defaults()[path]
@@ -74,10 +100,14 @@ class ParameterRows:
     def set(self, path: str, value: Any) -> None:
         """Set a parameter, as a part of the gesture when a widget is held."""
         label = defaults()[path][0].label
-        if imgui.is_any_item_active() and not self.studio.work.in_gesture:
-            self.studio.work.begin_gesture(label, path)
-            self._editing = True
+        self._hold(label, path)
         self.studio.set(path, value, label)
+
+    def change(self, document: Document, label: str) -> None:
+        """Replace the document, as a part of the gesture when a widget is held."""
+        if document != self.studio.document:
+            self._hold(label)
+            self.studio.work.change(document, label)
 
     def finish_frame(self) -> None:
         """Close the gesture once nothing is held any more, and say what could not be done. Call once a frame."""
@@ -97,6 +127,11 @@ class ParameterRows:
         _, self.wanted = imgui.input_text_with_hint("##search", "Find a parameter", self.wanted)
         imgui.pop_style_color()
         ui.note("Search")
+
+    def _hold(self, label: str, path: str = "") -> None:
+        if imgui.is_any_item_active() and not self.studio.work.in_gesture:
+            self.studio.work.begin_gesture(label, path)
+            self._editing = True
 
     def _matches(self, path: str, panel: Panel) -> bool:
         declared, _ = defaults()[path]

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from imgui_bundle import imgui
 
-from ..params import Parameter
+from ..params import Parameter, parameters_of
 from . import theme
 from .ui import Ui
+
+ItemT = TypeVar("ItemT", bound=Any)
 
 LABEL_SHARE = 0.43
 TYPED_RANGE = 1_000_000  # a whole number with more values than this is typed: no slider hits one of them
@@ -48,6 +51,20 @@ def draw(ui: Ui, declared: Parameter, value: Any, default: Any) -> Edit | None:
     if reset:
         return Edit(default)
     return _accept(declared, shown) if changed else None
+
+
+def edit_item(ui: Ui, item: ItemT, only: Iterable[str] = ()) -> tuple[ItemT, str]:
+    """Draw the parameters of a dataclass that stands for itself, or ``only`` some of them.
+
+    Returns it as it is after what the user did, and what to say about that when the user is done.
+    """
+    complaint = ""
+    defaults = {field.name: field.default for field in dataclasses.fields(item)}
+    for name, declared in parameters_of(item).items():
+        edit = draw(ui, declared, getattr(item, name), defaults[name]) if not only or name in only else None
+        if edit is not None:
+            item, complaint = dataclasses.replace(item, **{name: edit.value}), edit.complaint
+    return item, complaint
 
 
 def shown_text(declared: Parameter, value: Any) -> str:

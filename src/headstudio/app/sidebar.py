@@ -6,7 +6,7 @@ from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
 from . import compass
-from .editors import SHOWN
+from .editors import Editor
 from .parameter_rows import ParameterRows, defaults
 from .tools.tool import Tool
 from .ui import Ui
@@ -29,12 +29,13 @@ class Sidebar:
         self.rows = rows
         self.viewport = viewport
 
-    def draw(self, ui: Ui, tools: list[Tool]) -> None:
-        """All of it, in the current ImGui window. ``tools`` are those of the open editor."""
+    def draw(self, ui: Ui, editor: Editor, tools: list[Tool]) -> None:
+        """All of it, in the current ImGui window. ``tools`` are those of the open ``editor``."""
         self._draw_tools(ui, tools)
         self._draw_motion(ui)
-        self._draw_wind(ui)
-        self._draw_shown(ui)
+        if editor.hair_as == "particles":
+            self._draw_wind(ui)
+        self._draw_shown(ui, editor)
 
     def _draw_tools(self, ui: Ui, tools: list[Tool]) -> None:
         with ui.section("Tools") as shown:
@@ -80,17 +81,18 @@ class Sidebar:
             for name in ("speed", "gusts", "drag"):
                 self.rows.row(ui, f"wind.{name}")
 
-    def _draw_shown(self, ui: Ui) -> None:
+    def _draw_shown(self, ui: Ui, editor: Editor) -> None:
         with ui.section("Show") as shown:
             if not shown:
                 return
             width = imgui.get_content_region_avail().x
-            for k, name in enumerate(SHOWN):
+            for k, name in enumerate(editor.shown):
                 if k % COLUMNS:
                     imgui.same_line(imgui.get_style().window_padding.x + width / COLUMNS)
                 self.rows.tick(ui, f"look.{name}")
-            imgui.separator()
-            self.rows.tick(ui, "lcp.interactions")
+            if editor.hair_as == "particles":
+                imgui.separator()
+                self.rows.tick(ui, "lcp.interactions")
 
 
 def _next_cell(k: int) -> None:

@@ -157,9 +157,13 @@ class Studio:
         self._return_to_grown()
 
     def _follow_document(self) -> None:
-        """Ask for a build when the document has moved away from what was built; not in the middle of a drag."""
+        """Ask for a build when the document has moved away from what was built.
+
+        Particles wait for the end of a drag. Strands follow it: one build after the other, each to its end, since one that
+        gave way to every next position of the mouse would never be seen.
+        """
         document = self.document
-        if self.work.in_gesture:
+        if self.work.in_gesture and (self.building or document.look.hair_as != "strands"):
             return
         known = self.builds.wanted or (self.grown.document if self.grown else self._refused)
         if known is not None and _same_hair(document, known):
@@ -186,6 +190,7 @@ class Studio:
         """Make the document one that there is hair for: the last such, or else one that can be built."""
         if self.grown is not None:
             grown = self.grown.document
+            self.work.hair_as = grown.look.hair_as
             if self.work.go_back(lambda document: _same_hair(document, grown)):
                 return
         self._stand_in()

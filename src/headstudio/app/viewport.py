@@ -128,6 +128,8 @@ class Viewport:
         stage, document = self.studio.stage, self.studio.document
         if stage is None:
             return
+        if supersampling is None:
+            stage = self.tool.dress(stage)
         hasty = supersampling is None and self.adaptive
         moving = hasty and (self.studio.playback.playing or self._held is not None)
         part = RESOLUTIONS[self._resolution] if moving else 1.0
@@ -171,13 +173,16 @@ class Viewport:
             self.studio.work.look(moved)
 
     def _begin(self, io: imgui.IO) -> None:
-        if imgui.is_mouse_clicked(MIDDLE) or (imgui.is_mouse_clicked(LEFT) and io.key_shift):
+        if imgui.is_mouse_clicked(MIDDLE):
             self._held = "pan"
         elif imgui.is_mouse_clicked(RIGHT):
             self._held = "zoom"
         elif imgui.is_mouse_clicked(LEFT):
-            wanted = not io.key_alt and self.tool.press(self._pointer(io))
-            self._held = "tool" if wanted else "orbit"
+            for_tool = not io.key_alt and (self.tool.takes_shift or not io.key_shift)
+            if for_tool and self.tool.press(self._pointer(io)):
+                self._held = "tool"
+            else:
+                self._held = "pan" if io.key_shift else "orbit"
         if self._held not in (None, "tool"):
             self.studio.work.begin_gesture(str(self._held).capitalize(), "camera.")
 
@@ -190,4 +195,4 @@ class Viewport:
     def _pointer(self, io: imgui.IO) -> Pointer:
         stage = self.studio.stage
         x, y = io.mouse_pos.x - self.rect.x, io.mouse_pos.y - self.rect.y
-        return Pointer(x, y, self.view, stage.head if stage else None, self.frame, io.key_ctrl)
+        return Pointer(x, y, self.view, stage.head if stage else None, self.frame, io.key_ctrl, io.key_shift)

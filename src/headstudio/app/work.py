@@ -21,19 +21,21 @@ class Work:
     """One open project.
 
     Looking around is no change of the work: the camera is saved with it but has a history of its own, so that undo
-    never takes back a view and a glance from the side never costs a redo.
+    never takes back a view and a glance from the side never costs a redo. Whether hair is shown as particles or as
+    strands is a way of looking, too: it goes with the tab that is open, and undo leaves it alone.
     """
 
     def __init__(self) -> None:
         document = Document()
         self.history: History[Document] = History(document)
         self.views: History[Camera] = History(document.camera)
+        self.hair_as = document.look.hair_as
         self.path: Path | None = None
 
     @property
     def document(self) -> Document:
         """The document as it is now, with the view it is seen from."""
-        return replace(self.history.document, camera=self.views.document)
+        return self._seen(self.history.document)
 
     @property
     def name(self) -> str:
@@ -47,14 +49,17 @@ class Work:
 
     def change(self, document: Document, label: str) -> None:
         """Replace the document (its camera apart); one entry of the history, or part of the open gesture."""
-        self.history.change(replace(document, camera=self.history.document.camera), label)
+        present = self.history.document
+        self.hair_as = document.look.hair_as
+        look = replace(document.look, hair_as=present.look.hair_as)
+        self.history.change(replace(document, camera=present.camera, look=look), label)
 
     def set(self, path: str, value: Any, label: str) -> None:
         """Set the parameter at a dotted path. Raises ParameterError for what it cannot take."""
         if path.startswith(VIEW):
             self.views.change(assign(self.document, {path: value}).camera, label)
         else:
-            self.change(assign(self.history.document, {path: value}), label)
+            self.change(assign(self.document, {path: value}), label)
 
     def look(self, camera: Camera, label: str = "View") -> None:
         """See the scene through another camera."""
@@ -108,7 +113,7 @@ class Work:
     def go_back(self, wanted: Callable[[Document], bool]) -> bool:
         """Undo until the document is as ``wanted``. False when it never was: then nothing is undone."""
         steps = 0
-        while not wanted(self.history.document):
+        while not wanted(self.document):
             if not self.history.undo():
                 for _ in range(steps):
                     self.history.redo()
@@ -116,9 +121,14 @@ class Work:
             steps += 1
         return True
 
+    def _seen(self, document: Document) -> Document:
+        look = document.look if document.look.hair_as == self.hair_as else replace(document.look, hair_as=self.hair_as)
+        return replace(document, camera=self.views.document, look=look)
+
     def _reopen(self, document: Document, path: Path | None) -> None:
         self.history.reopen(document)
         self.views.reopen(document.camera)
+        self.hair_as = document.look.hair_as
         self.path = path
 
 

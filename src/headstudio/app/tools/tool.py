@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 
 from ...head.frame import HeadFrame
 from ...head.head import Head
+from ...scene.stage import Stage
 from ..picking import Hit, Ray, View, pick_head
 from ..studio import Studio
 from ..ui import Ui
@@ -24,6 +25,7 @@ class Pointer:
     head: Head | None
     frame: HeadFrame
     ctrl: bool = False
+    shift: bool = False
 
     @property
     def ray(self) -> Ray:
@@ -49,11 +51,15 @@ class Canvas:
 
 
 class Tool:
-    """One way to use the mouse on the scene. A press that the tool does not want turns the camera instead."""
+    """One way to use the mouse on the scene. A press that the tool does not want turns the camera instead.
+
+    takes_shift: Shift means something to the tool; with all others Shift pans.
+    """
 
     label = ""
     icon = ""
     help = ""
+    takes_shift = False
 
     def __init__(self, studio: Studio) -> None:
         self.studio = studio
@@ -67,6 +73,10 @@ class Tool:
 
     def release(self) -> None:
         """The button was let go."""
+
+    def dress(self, stage: Stage) -> Stage:
+        """The stage with what the tool shows in the scene itself; the same object as long as nothing changes."""
+        return stage
 
     def draw(self, canvas: Canvas) -> None:
         """Draw handles on top of the picture."""
