@@ -60,8 +60,8 @@ def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tupl
     thickness = operation.thickness
     knot, middle = _braid_path(operation, surroundings, longest)
     side, front = sideways(surroundings, middle)
-    width = 0.42 * thickness * operation.groups
-    locks = plait(middle, side, front, operation.groups, width, 0.65 * thickness, operation.period)
+    width = 0.35 * thickness * operation.groups
+    locks = plait(middle, side, front, operation.groups, width, 0.55 * thickness, operation.period)
     gather = PointConstraint(knot, 1.5 * thickness, 1.0, surroundings)
     end = PointConstraint(middle[-1], 1.2 * thickness)
     return tuple(

@@ -118,9 +118,9 @@ class Updo:
 
     selection: Selection = EVERYTHING
     place: Place = (0.0, 0.8, -0.8)
-    loops: int = integer(5, "Loops", 1, 12, "Into how many loops the hair is divided.")
-    radius: float = number(0.028, "Radius", "m", 0.008, 0.08, "Radius of a loop.", shown="mm")
-    thickness: float = _thickness(0.010, "Radius of a lock.")
+    loops: int = integer(7, "Loops", 1, 12, "Into how many loops the hair is divided.")
+    radius: float = number(0.022, "Radius", "m", 0.008, 0.08, "Radius of a loop.", shown="mm")
+    thickness: float = _thickness(0.012, "Radius of a lock.")
 
 
 Operation = Constrain | Tie | Braid | Bun | Updo

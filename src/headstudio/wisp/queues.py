@@ -145,6 +145,11 @@ def _put(progress: Progress, active: Ints, part: Progress) -> None:
 
 def _lanes(roots: Floats) -> Floats:
     """A place in the unit ball for every wisp, (k, 3): to the side its root is on, and evenly filled."""
-    away = roots - roots.mean(axis=0) if len(roots) else roots
+    if len(roots) == 0:
+        return roots
+    away = roots - roots.mean(axis=0)
+    # A strip of scalp is as good as a round patch: distances are measured in its own breadth each way.
+    size, axes = np.linalg.eigh(away.T @ away / len(roots))
+    away = (away @ axes) / np.sqrt(np.maximum(size, 1e-12)) @ axes.T
     rank = np.argsort(np.argsort(np.linalg.norm(away, axis=1), kind="stable"), kind="stable")
-    return np.sqrt((rank + 0.5) / max(len(roots), 1))[:, None] * unit(away, otherwise=np.zeros_like(away))
+    return np.sqrt((rank + 0.5) / len(roots))[:, None] * unit(away, otherwise=np.zeros_like(away))
