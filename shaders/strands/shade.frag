@@ -18,6 +18,12 @@ uniform mat4 hair_box;         // of the light, around the hair alone, from the 
 uniform float box_size;        // [m]
 out vec4 radiance_;
 
+// Strands within this distance [m] send light back.
+const float behind_depth = 0.05;
+// Of its own texel's count, what a strand thinner than a texel meets again when it reads between texels, in the mean.
+const float own_part = 0.75;
+const float pi = 3.14159265;
+
 vec3 absorption_at(ivec2 texel) {
     if (!coloured) return hair_absorption;
     vec3 root = log(clamp(texelFetch(hair_colours, texel, 0).rgb, 1e-3, 0.98)) / colour_slope;
@@ -43,9 +49,17 @@ vec3 sent_back(vec3 back, vec3 endless, vec3 passed, float behind) {
     return max(endless * (1.0 - both_ways) / (1.0 - endless * endless * both_ways) - back, 0.0);
 }
 
+// Kajiya, Kay 1989: a cylinder that scatters evenly, and mirrors along a cone; scaled to send as much as a fibre does.
+vec3 kajiya_kay(float sin_in, float sin_out, vec3 colour, float mirrored) {
+    float cos_in = sqrt(max(1.0 - sin_in * sin_in, 0.0)), cos_out = sqrt(max(1.0 - sin_out * sin_out, 0.0));
+    float cone = pow(max(cos_in * cos_out - sin_in * sin_out, 0.0), 1.0 / variances.x);
+    return colour * cos_in / (pi * pi) + mirrored * cone * inversesqrt(2.0 * pi * variances.x) / (2.0 * pi);
+}
+
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    vec3 place = turned(texelFetch(points, texel, 0).xyz, head_turn.xyz) + head_shift.xyz;
+    vec4 point = texelFetch(points, texel, 0);
+    vec3 place = turned(point.xyz, head_turn.xyz) + head_shift.xyz;
     vec3 along = normalize(turned(texelFetch(tangents, texel, 0).xyz, head_turn.xyz));
     vec3 to_eye = normalize(eye.xyz - place);
     vec3 absorption = absorption_at(texel);
@@ -53,33 +67,38 @@ void main() {
     float phi = azimuth_between(along, to_light.xyz, to_eye);
 
     vec3 at = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
-    float width = 2.0 * texelFetch(points, texel, 0).w * light_widening * float(textureSize(near_counts, 0).x) / box_size;
-    float own = texel.x + texel.y * point_row < light_points ? 0.75 * min(width, 1.0) : 0.0;
-    float crossed = shadow.x < 0.5 ? 0.0 : hair_crossed(at, own);
+    float texels = 2.0 * point.w * light_widening * float(textureSize(near_counts, 0).x) / box_size;
+    float own = texel.x + texel.y * point_row < light_points ? own_part * min(texels, 1.0) : 0.0;
+    float above = hair_crossed(at, own);
+    float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - own - above, 0.0);
+    float crossed = shadow.x < 0.5 ? 0.0 : above;
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
-    mat4x3 sent_in = albedo(sin_in, absorption);
+
+    mat4x3 sent_in = albedo(sin_in, absorption), sent = albedo(sin_out, absorption);
     vec3 endless, passed;
     pile(sent_in[0], sent_in[1], endless, passed);
-    float behind = hair_crossed(vec3(at.xy, at.z + 0.05 / box_size)) - crossed;
     float direct = exp(-crossed);
-    vec3 scattered = (exp(-crossed * (1.0 - passed)) - direct);
+    vec3 scattered = exp(-crossed * (1.0 - passed)) - direct;
 
-    vec3 seen = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)));
-    vec4 wider = vec4(min(crossed, 8.0) * variances.y);
-    seen += scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider));
-    seen += (direct + scattered) * sent_back(sent_in[1], endless, passed, behind) / 3.14159265
-        * along_hair(sin_in, sin_out, vec4(0.1)).z * step(0.0, cos(phi)) ;
-    seen *= 3.14159265 * radiance.rgb * lit;
+    mat4x3 soft = soft_light(point.xyz);
+    mat3 slope = mat3(soft[1], soft[2], soft[3]);
+    vec3 level = soft[0] + slope * turned(-sin_out * along, -head_turn.xyz);
+    vec3 aside = slope * turned(to_eye - along * sin_out, -head_turn.xyz);
 
-    mat4x3 soft = soft_light(texelFetch(points, texel, 0).xyz);
-    mat4x3 sent = albedo(sin_out, absorption);
-    pile(sent[0], sent[1], endless, passed);
-    vec3 aside = to_eye - along * sin_out;
-    vec3 mirrored = turned(-sin_out * along, -head_turn.xyz), towards = turned(aside, -head_turn.xyz);
-    vec3 slope_along = mat3(soft[1], soft[2], soft[3]) * mirrored;
-    vec3 slope_aside = mat3(soft[1], soft[2], soft[3]) * towards;
-    vec3 level = soft[0] + slope_along;
-    seen += max(sent[0] * level + sent[2] * slope_aside, 0.0) + max(sent[1] * level + sent[3] * slope_aside, 0.0);
-    seen += sent_back(sent[1], endless, passed, behind) * max(level + 0.6366 * slope_aside, 0.0);
-    radiance_ = vec4(seen, 1.0);
+    vec3 from_light, from_sky;
+    if (fibre_model) {
+        vec4 wider = vec4(min(crossed, 8.0) * variances.y);
+        from_light = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)))
+            + scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider))
+            + (direct + scattered) * sent_back(sent_in[1], endless, passed, behind)
+                * along_hair(sin_in, sin_out, vec4(0.0)).z * 0.5 * max(cos(phi), 0.0);
+        pile(sent[0], sent[1], endless, passed);
+        from_sky = max(sent[0] * level + sent[2] * aside, 0.0) + max(sent[1] * level + sent[3] * aside, 0.0)
+            + sent_back(sent[1], endless, passed, behind) * max(level + 0.25 * pi * aside, 0.0);
+    } else {
+        vec3 colour = exp(-sqrt(absorption) * colour_slope);
+        from_light = direct * kajiya_kay(sin_in, sin_out, colour, 0.05) + scattered * kajiya_kay(sin_in, sin_out, colour, 0.0);
+        from_sky = colour * max(level + 0.25 * pi * aside, 0.0);
+    }
+    radiance_ = vec4(pi * radiance.rgb * lit * from_light + from_sky, 1.0);
 }

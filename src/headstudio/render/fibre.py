@@ -85,10 +85,10 @@ def colour_slope(radial_roughness: float) -> float:
     return float(np.polyval([0.245, 5.574, -10.73, 2.532, -0.215, 5.969], radial_roughness))
 
 
-def longitudinal(sin_in: Floats, sin_out: Floats, variance: float) -> Floats:
-    """M: spread along the hair; its integral times cos(theta_in) over theta_in is 1 (d'Eon et al. 2011, eq. 7)."""
-    cosines = np.sqrt((1 - sin_in**2) * (1 - sin_out**2))
-    sines = sin_in * sin_out
+def longitudinal(sin_in: Floats, sin_mirrored: Floats, variance: float) -> Floats:
+    """M: spread along the hair about the mirrored inclination of the eye; its integral times cos(theta_in) over theta_in is 1 (d'Eon et al. 2011, eq. 7)."""
+    cosines = np.sqrt((1 - sin_in**2) * (1 - sin_mirrored**2))
+    sines = sin_in * sin_mirrored
     # I0 scaled by exp(-x), so that narrow lobes do not overflow: 1 / (2 v sinh(1/v)) = exp(-1/v) / (v (1 - exp(-2/v))).
     scale = 1.0 / (variance * -np.expm1(-2.0 / variance))
     return i0e(cosines / variance) * np.exp((cosines + sines - 1.0) / variance) * scale

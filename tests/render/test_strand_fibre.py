@@ -1,0 +1,86 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from headstudio.render.fibre import (
+    ABSORPTIONS,
+    AZIMUTHS,
+    LOBES,
+    SINES,
+    Fibre,
+    azimuthal,
+    colour_absorption,
+    fibre_tables,
+    longitudinal,
+    melanin_absorption,
+    passed_on,
+    scattering,
+)
+
+THETA = (np.arange(600) + 0.5) / 600 * np.pi - np.pi / 2
+PHI = (np.arange(256) + 0.5) / 256 * 2 * np.pi
+
+
+def albedo(sin_out: float, absorption: float, fibre: Fibre) -> float:
+    """The integral over all directions of the light."""
+    lobes = scattering(np.sin(THETA), sin_out, PHI, absorption, fibre)
+    return float((lobes * np.cos(THETA)[:, None]).sum() * (np.pi / 600) * (2 * np.pi / 256))
+
+
+@pytest.mark.parametrize("roughness", [0.1, 0.3, 0.8])
+@pytest.mark.parametrize("sin_out", [0.0, 0.4, -0.7, 0.95])
+def test_furnace(roughness: float, sin_out: float) -> None:
+    """Without absorption a fibre loses no light, whatever the angle."""
+    assert 0.95 < albedo(sin_out, 0.0, Fibre(roughness, roughness)) < 1.05
+
+
+def test_pigment_takes_light_away() -> None:
+    albedos = [albedo(0.3, absorption, Fibre()) for absorption in (0.0, 0.1, 0.5, 2.0)]
+    assert (np.diff(albedos) < -0.02).all()
+    assert albedos[-1] > 0.03  # what the surface reflects stays
+
+
+@pytest.mark.parametrize("variance", [0.003, 0.05, 0.4])
+def test_longitudinal_lobe_is_normalised_and_peaks_at_the_mirrored_angle(variance: float) -> None:
+    lobe = longitudinal(np.sin(THETA), np.full(len(THETA), -np.sin(0.5)), variance)
+    assert (lobe * np.cos(THETA)).sum() * np.pi / 600 == pytest.approx(1.0, abs=0.01)
+    if variance < 0.1:
+        assert THETA[np.argmax(lobe)] == pytest.approx(-0.5, abs=0.05)
+
+
+def test_light_passes_forward_through_light_hair_and_hardly_through_dark() -> None:
+    tables = fibre_tables(Fibre())
+    forward, back = tables.albedo[0, SINES // 2, :2]
+    assert forward + back == pytest.approx(1.0, abs=0.01)
+    assert forward > 0.8
+    dark_forward, dark_back = tables.albedo[-4, SINES // 2, :2]
+    assert dark_forward < 0.1
+    assert dark_back < back
+
+
+def test_tables_hold_the_reference() -> None:
+    fibre = Fibre(roughness=0.4)
+    tables = fibre_tables(fibre)
+    assert tables.around.shape == tables.spread.shape == (ABSORPTIONS, SINES, AZIMUTHS, LOBES)
+    phi, sine = (20 + 0.5) / AZIMUTHS * np.pi, (7 + 0.5) / SINES
+    coded = np.linspace(0, 0.98, ABSORPTIONS)[9]
+    wanted = azimuthal(np.array([phi]), np.array([sine]), np.array([coded / (1 - coded)]), fibre)[0, 0, 0]
+    np.testing.assert_allclose(tables.around[9, 7, 20], wanted)
+    # Light from anywhere keeps its sum.
+    np.testing.assert_allclose(tables.spread.sum(axis=2), tables.around.sum(axis=2), rtol=1e-9)
+
+
+def test_melanin_is_blenders() -> None:
+    np.testing.assert_allclose(melanin_absorption(0.75, 0.0), -np.log(0.25) * np.array([0.506, 0.841, 1.653]))
+    np.testing.assert_allclose(melanin_absorption(0.5, 1.0), -np.log(0.5) * np.array([0.343, 0.733, 1.924]))
+    assert np.isfinite(melanin_absorption(1.0, 0.5)).all()
+    np.testing.assert_array_equal(melanin_absorption(0.0, 0.5), 0.0)
+
+
+def test_lighter_colours_absorb_less_and_pass_more_on() -> None:
+    tables = fibre_tables(Fibre())
+    absorption = colour_absorption(np.array([0.05, 0.3, 0.8]), 0.3)
+    assert (np.diff(absorption) < 0).all()
+    assert (np.diff(passed_on(tables, absorption)) > 0).all()
+    assert passed_on(tables, np.zeros(3)) == pytest.approx(1.0, abs=1e-2)
