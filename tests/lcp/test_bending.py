@@ -56,7 +56,8 @@ def test_hair_without_hold_is_free(hair):
 def curvature(model, positions, dt=1e-6, velocities=None, directions=None, stiffness=1.0):
     v = np.zeros_like(positions) if velocities is None else velocities
     t = model.rest_directions if directions is None else directions
-    return Bending(model).curvature_force(positions, v, t, DynamicsSettings(stiffness=stiffness), dt)
+    bending = Bending(model)
+    return bending.curvature_force(positions, v, bending.rest_turn(t), DynamicsSettings(stiffness=stiffness), dt)
 
 
 def test_hair_at_rest_has_the_curvature_it_wants(hair):

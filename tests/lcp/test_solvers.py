@@ -26,6 +26,7 @@ GENTLE = DynamicsSettings(
     hold=0.0,
     stiffness=0.0,
     spring_damping=1.0,
+    inner_friction=0.0,
     air_friction=0.5,
     interactions=False,
 )

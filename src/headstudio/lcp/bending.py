@@ -64,20 +64,21 @@ class Bending:
         back = self.kappa(settings)[:, None] * (self.model.rest_positions - positions)
         return back + min(settings.hold, 1.0) * settings.gravity * self._support
 
+    def rest_turn(self, directions: Floats) -> Floats:
+        """How far hair of these unit directions, (n, 3), turns at every particle when it is at rest [rad], (n, 3)."""
+        return turned_along(self._rest_turn, self.model.rest_directions, directions)
+
     def curvature_force(
-        self, positions: Floats, velocities: Floats, directions: Floats, settings: DynamicsSettings, dt: float
+        self, positions: Floats, velocities: Floats, rest_turn: Floats, settings: DynamicsSettings, dt: float
     ) -> Floats:
         """Force that restores the curvature of the initial shape [N], (n, 3).
 
-        positions [m], velocities [m/s] and unit directions, head frame, (n, 3). dt: the step to come [s]; hair too stiff
-        for an explicit step is taken as stiff as it can be.
+        positions [m] and velocities [m/s], head frame, and what ``rest_turn`` says of the directions, (n, 3). dt: the step
+        to come [s]; hair too stiff for an explicit step is taken as stiff as it can be.
         """
-        rigidity = settings.stiffness * self._rigidity
-        rigidity = (
-            self.model.mass * rigidity / np.maximum(settings.stiffness * self._fastest * dt * dt / _STEP_LIMIT, 1.0)
-        )
-        rest = turned_along(self._rest_turn, self.model.rest_directions, directions)
-        excess = self._turn @ (positions + _RELAXATION * velocities) - rest
+        weakening = np.maximum(settings.stiffness * self._fastest * dt * dt / _STEP_LIMIT, 1.0)
+        rigidity = self.model.mass * settings.stiffness * self._rigidity / weakening
+        excess = self._turn @ (positions + _RELAXATION * velocities) - rest_turn
         return -(self._turn_back @ (rigidity[:, None] * excess))
 
 

@@ -11,6 +11,7 @@ from ..head.frame import HeadFrame
 from ..head.hair_tight import hair_tight_surface
 from ..head.head import Head
 from ..head.mesh import Floats, TriangleMesh
+from .inertia import cross_matrix
 
 _VOXEL = 0.014
 _SLIDING_DISTANCE = 0.006
@@ -54,7 +55,7 @@ class Body:
         normals = np.where(nearer[:, None], torso_normals, normals)
         if frame is not None:
             spin = frame.rotation.inv().apply(frame.angular_velocity)
-            velocity = np.where(nearer[:, None], -np.cross(spin, positions), 0.0)
+            velocity = np.where(nearer[:, None], positions @ cross_matrix(spin), 0.0)
         return distance, normals, velocity
 
     def clearance(self, positions: Floats) -> Floats:

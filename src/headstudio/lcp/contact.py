@@ -83,29 +83,35 @@ def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Flo
     return np.where(model.fixed[:, None], positions, model.root_points + share[:, None] * from_root)
 
 
-def drawn_along(model: HairModel, positions: Floats) -> Floats:
-    """Positions [m], (n, 3), where no particle is left far behind by the hair that it continues.
+class Tethers:
+    """What keeps hair from being left far behind by the hair that it continues.
 
     What squeezes between head and torso can hold hair so fast that its springs would have to pull for many steps. A
     particle follows those of its rootward links that run along the hair and still hold, and its lifeline in any case.
     """
-    rootward, tipward = model.links.T
-    offset = positions[tipward] - positions[rootward]
-    length = np.sqrt(np.einsum("ij,ij->i", offset, offset))
-    lifeline = np.zeros(len(length), dtype=bool)
-    lifeline[model.lifeline[model.lifeline >= 0]] = True
-    holds = (model.alignment >= LENGTHWISE) & (length < 2.0 * model.smoothing_length_links)
-    excess = length - LONGEST_LINK * model.rest_length
-    far = np.flatnonzero((excess > 0) & (holds | lifeline))
-    if len(far) == 0:
-        return positions
-    behind = tipward[far]
-    way = -(excess[far] / length[far])[:, None] * offset[far]
-    share = 1.0 / np.bincount(behind, minlength=model.count)[behind]
-    drawn = positions.copy()
-    for axis in range(3):
-        drawn[:, axis] += np.bincount(behind, share * way[:, axis], model.count)
-    return drawn
+
+    def __init__(self, model: HairModel) -> None:
+        lifeline = np.zeros(len(model.links), dtype=bool)
+        lifeline[model.lifeline[model.lifeline >= 0]] = True
+        chosen = np.flatnonzero(lifeline | (model.alignment >= LENGTHWISE))
+        self._rootward, self._tipward = np.ascontiguousarray(model.links[chosen].T)
+        self._longest = LONGEST_LINK * model.rest_length[chosen]
+        self._holds_until = np.where(lifeline[chosen], np.inf, 2.0 * model.smoothing_length_links)
+
+    def drawn_along(self, positions: Floats) -> Floats:
+        """Positions [m], (n, 3), where what was left behind has followed."""
+        offset = positions[self._tipward] - positions[self._rootward]
+        length = np.sqrt(np.einsum("ij,ij->i", offset, offset))
+        far = np.flatnonzero((length > self._longest) & (length < self._holds_until))
+        if len(far) == 0:
+            return positions
+        behind, count = self._tipward[far], len(positions)
+        way = (self._longest[far] / length[far] - 1.0)[:, None] * offset[far]
+        share = 1.0 / np.bincount(behind, minlength=count)[behind]
+        drawn = positions.copy()
+        for axis in range(3):
+            drawn[:, axis] += np.bincount(behind, share * way[:, axis], count)
+        return drawn
 
 
 def stop_at_reach(

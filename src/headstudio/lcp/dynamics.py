@@ -11,7 +11,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from .bending import Bending
 from .body import Body
-from .contact import Touching, drawn_along, put_back, stop_at_body, stop_at_reach, touching
+from .contact import Tethers, Touching, put_back, stop_at_body, stop_at_reach, touching
 from .direction import updated_directions
 from .inertia import apparent_acceleration
 from .interactions import hair_hair_forces
@@ -50,6 +50,7 @@ class Dynamics:
         self.body = body
         self.springs = Springs(model)
         self.bending = Bending(model)
+        self.tethers = Tethers(model)
         self.timer = Timer()
         self.forget()
 
@@ -79,17 +80,18 @@ class Dynamics:
         frame: HeadFrame,
         positions: Floats,
         velocities: Floats,
-        directions: Floats,
+        rest_turn: Floats,
         dt: float,
     ) -> Floats:
         """What a single hair feels besides its springs and still air [m/s^2], (n, 3): gravity, inertia and bending.
 
-        positions [m], velocities [m/s] and unit directions: (n, 3). dt: the step to come [s].
+        positions [m], velocities [m/s] and the turn of the hair at rest, Bending.rest_turn [rad]: (n, 3). dt: the step to
+        come [s].
         """
         acceleration = apparent_acceleration(frame, positions, velocities, settings.gravity)
         with self.timer.stage("bending"):
             acceleration += self.bending.place(positions, settings)
-            force = self.bending.curvature_force(positions, velocities, directions, settings, dt)
+            force = self.bending.curvature_force(positions, velocities, rest_turn, settings, dt)
             return acceleration + force / self.model.mass[:, None]
 
     def touch(self, positions: Floats, frame: HeadFrame) -> Touching:
@@ -121,7 +123,7 @@ class Dynamics:
         """Positions [m], (n, 3), at ``distance`` from their planes, with what is too deep or too far put back."""
         with self.timer.stage("contact"):
             if now.parting is None:
-                drawn = drawn_along(self.model, positions)
+                drawn = self.tethers.drawn_along(positions)
                 distance = distance + np.einsum("ij,ij->i", drawn - positions, touch.normals)
                 positions = drawn
             return put_back(self.model, positions, touch, distance)

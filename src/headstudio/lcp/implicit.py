@@ -31,7 +31,7 @@ from .springs import LinkState
 # more, for accuracy, as long as few particles leave the time for it.
 _FEWEST_PARTS, _MOST_PARTS = 2, 6
 _PART_LENGTH = 0.056  # [m]
-_PARTICLES_IN_TIME = 4000  # particles times parts that keep up with real time
+_PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
 _TOLERANCE = 1e-2
 _MOST_ITERATIONS = 60
 
@@ -58,23 +58,24 @@ class ImplicitSolver:
         dynamics = self.dynamics
         outer = dynamics.outer_acceleration(state, now, dt)
         directions = state.directions
+        rest_turn = dynamics.bending.rest_turn(directions)
         for _ in range(self.parts):
-            state = self._part(state, now, outer, dt / self.parts)
+            state = self._part(state, now, outer, rest_turn, dt / self.parts)
         return replace(state, directions=dynamics.turn(state.positions, directions, now.settings))
 
-    def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:
-        """One BDF2 step of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
+    def _part(self, state: HairState, now: Circumstances, outer: Floats, rest_turn: Floats, dt: float) -> HairState:
+        """One BDF2 step of dt [s] under the accelerations ``outer`` [m/s^2], with Bending.rest_turn, (n, 3) each."""
         dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time + dt)
         model = dynamics.model
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
-        x_before, v_before = state.before or self._earlier(state, now, outer, dt)
+        x_before, v_before = state.before or self._earlier(state, now, outer, rest_turn, dt)
         x_hat, v_hat = (4.0 * x - x_before) / 3.0, (4.0 * v - v_before) / 3.0
         g = 2.0 * dt / 3.0
 
         ahead = x_hat + g * v
         links = dynamics.links(ahead, settings)
-        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v, state.directions, dt))
+        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v, rest_turn, dt))
         force += dynamics.springs.forces(links, v, settings)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         with dynamics.timer.stage("solve"):
@@ -95,14 +96,16 @@ class ImplicitSolver:
         before = (x + _along(kink, x_new - dt * v_new - x), v + _along(kink, v_new - v))
         return HairState(x_new, v_new, state.directions, state.time + dt, before)
 
-    def _earlier(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> tuple[Floats, Floats]:
+    def _earlier(
+        self, state: HairState, now: Circumstances, outer: Floats, rest_turn: Floats, dt: float
+    ) -> tuple[Floats, Floats]:
         """A position and velocity for the part before the first, such that the first is of second order, too."""
         dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time)
         x, v = state.positions, state.velocities
         touch = dynamics.touch(x, frame)
         springs = dynamics.springs.forces(dynamics.links(x, settings), v, settings)
         acceleration = outer - settings.air_friction * v
-        acceleration += dynamics.inner_acceleration(settings, frame, x, v, state.directions, dt)
+        acceleration += dynamics.inner_acceleration(settings, frame, x, v, rest_turn, dt)
         acceleration += springs / dynamics.model.mass[:, None]
         held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
         acceleration = (held - v) / dt
@@ -148,8 +151,8 @@ class _SpringMatrix:
         place = np.full(model.count, -1)
         place[free] = np.arange(len(free))
         rootward, tipward = place[model.links].T
-        self.inner = np.flatnonzero((rootward >= 0) & (tipward >= 0))
-        a, b = rootward[self.inner], tipward[self.inner]
+        inner = np.flatnonzero((rootward >= 0) & (tipward >= 0))
+        a, b = rootward[inner], tipward[inner]
         count = len(free)
         # Numbering the blocks and letting scipy sort them tells where each one goes.
         rows = np.concatenate([np.arange(count), a, b])
@@ -159,8 +162,9 @@ class _SpringMatrix:
         place_of = np.empty(len(rows), dtype=np.int64)
         place_of[numbered.data - 1] = np.arange(len(rows))
         self._diagonal = place_of[:count]
-        self._upper = place_of[count : count + len(a)]
-        self._lower = place_of[count + len(a) :]
+        # The link that couples the two particles of a block; blocks of the diagonal are overwritten.
+        self._link_of = np.zeros(len(rows), dtype=np.int64)
+        self._link_of[place_of[count:]] = np.concatenate([inner, inner])
         self._blocks = np.zeros((len(rows), 3, 3))
         self._matrix = sparse.bsr_array((self._blocks, numbered.indices, numbered.indptr), shape=(3 * count, 3 * count))
         self._blocks = self._matrix.data
@@ -174,16 +178,14 @@ class _SpringMatrix:
         # A pulled link also resists turning; a pushed one would help it, and is left out to keep the matrix definite.
         turning = g * g * np.maximum(pull, 0.0) / np.maximum(links.length, 1e-9)
         along = g * g * stiffness + g * damping - turning
+        across = turning + g * springs.friction(settings.inner_friction)
         block = (along[:, None] * links.unit)[:, :, None] * links.unit[:, None, :]
-        block[:, [0, 1, 2], [0, 1, 2]] += turning[:, None]
-        flat = block.reshape(-1, 9)
-        coupling = -block[self.inner]
-        self._blocks[self._upper] = coupling
-        self._blocks[self._lower] = coupling
-        diagonal = springs.sum_at_ends(flat, flat)[self.free].reshape(-1, 3, 3)
-        diagonal[:, [0, 1, 2], [0, 1, 2]] += inertia[self.free, None]
-        self._blocks[self._diagonal] = diagonal
-        self._inverse = _inverse_of_symmetric(diagonal)
+        block.reshape(-1, 9)[:, ::4] += across[:, None]
+        diagonal = springs.sum_around(block.reshape(-1, 9))[self.free]
+        diagonal[:, ::4] += inertia[self.free, None]
+        np.take(-block, self._link_of, axis=0, out=self._blocks, mode="clip")
+        self._blocks[self._diagonal] = diagonal.reshape(-1, 3, 3)
+        self._inverse = _inverse_of_symmetric(diagonal.reshape(-1, 3, 3))
 
     def solve(self, right: Floats, guess: Floats) -> Floats:
         """Conjugate gradients from ``guess``, preconditioned with the inverted diagonal blocks; (n, 3), root particles zero."""

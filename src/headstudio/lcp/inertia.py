@@ -21,11 +21,11 @@ def apparent_acceleration(frame: HeadFrame, positions: Floats, velocities: Float
     spin = to_head.apply(frame.angular_velocity)
     spin_change = to_head.apply(frame.angular_acceleration)
     # One matrix for Euler and centrifugal, one for Coriolis: x -> a x is a cross product.
-    turning = _cross_matrix(spin)
-    by_position = -_cross_matrix(spin_change) - turning @ turning
+    turning = cross_matrix(spin)
+    by_position = -cross_matrix(spin_change) - turning @ turning
     return falling + positions @ by_position.T + velocities @ (-2.0 * turning).T
 
 
-def _cross_matrix(a: Floats) -> Floats:
+def cross_matrix(a: Floats) -> Floats:
     """The matrix of x -> a cross x, (3, 3)."""
     return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])

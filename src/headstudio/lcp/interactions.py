@@ -10,7 +10,7 @@ from .model import HairModel, HairState
 from .settings import DynamicsSettings
 
 # Rate at which collision damping at its default stops hair that approaches on all sides [1/s].
-_COLLISION_RATE = 40.0
+_COLLISION_RATE = 5.0
 # The slope of the kernel is nothing at its middle: particles that come close feel no pressure and stay together, the more
 # so when negative pressure pulls. So cohesion is bounded, as a part of the pressure at which the density has doubled, and
 # pairs nearer than this part of the mean distance repel each other.
@@ -57,7 +57,7 @@ def _pressure(
     h, mass = model.smoothing_length, model.mass
     rest = settings.rest_density * model.rest_density
     # Sound of speed sqrt(k_a) must not swing through a wave as short as the kernel shows in a step.
-    gain = settings.pressure / (1.0 + settings.pressure * (_SHORTEST_WAVE * dt / h) ** 2)
+    gain = settings.pressure / max(settings.pressure * (_SHORTEST_WAVE * dt / h) ** 2, 1.0)
     pressure = gain * np.maximum(density - rest, -_COHESION * rest)
     over_square: Floats = pressure / density**2
     both = over_square[i] + over_square[j]
@@ -100,7 +100,7 @@ def _contact_drag(
     unit_rate = _COLLISION_RATE * model.mass.mean() ** 2 / model.rest_density.mean()
     # All neighbours together must not turn a velocity round within a step.
     load = (settings.collision + settings.friction) * unit_rate * density / model.mass**2
-    bound = weight / (1.0 + 2.0 * dt * np.maximum(load[i], load[j]))
+    bound = weight / np.maximum(2.0 * dt * np.maximum(load[i], load[j]), 1.0)
     collision = unit_rate * settings.collision * np.where(approaching, along, 0.0)
     # (v . d_t) d_t is the part of v across d_n.
     friction = unit_rate * settings.friction

@@ -27,7 +27,7 @@ class LeapfrogSolver:
         """
         model, springs = self.dynamics.model, self.dynamics.springs
         stiffness = springs.at(model.rest_positions, settings.elastic_modulus).stiffness
-        damping = springs.damping(stiffness, settings.spring_damping)
+        damping = springs.damping(stiffness, settings.spring_damping) + springs.friction(settings.inner_friction)
         both = np.column_stack([stiffness, damping])
         square, rate = (2.0 * springs.sum_at_ends(both, both) / model.mass[:, None]).T
         limit = 4.0 / (rate + np.sqrt(rate * rate + 4.0 * square) + 1e-9)
@@ -46,7 +46,8 @@ class LeapfrogSolver:
         mass = dynamics.model.mass[:, None]
         touch = dynamics.touch(x, frame)
         acceleration = dynamics.outer_acceleration(state, now, dt)
-        acceleration += dynamics.inner_acceleration(settings, frame, x, v, state.directions, dt)
+        rest_turn = dynamics.bending.rest_turn(state.directions)
+        acceleration += dynamics.inner_acceleration(settings, frame, x, v, rest_turn, dt)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)

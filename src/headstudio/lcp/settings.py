@@ -93,6 +93,15 @@ class DynamicsSettings:
     spring_damping: float = number(
         2.0, "Spring damping", "", 0.0, 5.0, "Damping of the springs as a fraction of critical.", live=True
     )
+    inner_friction: float = number(
+        60.0,
+        "Inner friction",
+        "1/s",
+        0.0,
+        200.0,
+        "Rate at which linked hair takes up a common velocity: 0 whips like loose strings, 200 moves like dough.",
+        live=True,
+    )
     air_friction: float = number(
         2.5, "Air friction", "1/s", 0.0, 20.0, "Rate at which still air slows hair down.", live=True
     )
@@ -101,11 +110,11 @@ class DynamicsSettings:
         True, "Hair-hair interactions", "Attraction, repulsion, collision and friction.", live=True
     )
     pressure: float = number(
-        0.5,
+        0.06,
         "Attraction/repulsion",
         "m^2/s^2",
         0.0,
-        2.0,
+        0.5,
         "Pressure gain k_a that keeps the average density (eq. 16).",
         live=True,
     )

@@ -45,12 +45,16 @@ class Springs:
         self._sum_at_rootward = sparse.csr_array((ones, (rootward, rows)), shape=shape)
         self._sum_at_tipward = sparse.csr_array((ones, (tipward, rows)), shape=shape)
         self._spread = (self._sum_at_rootward - self._sum_at_tipward).tocsr()
+        self._sum_at_both = (self._sum_at_rootward + self._sum_at_tipward).tocsr()
         self._difference = -self._spread.T.tocsr()
         self.section = (model.mass / HAIR_MATERIAL_DENSITY) ** (2.0 / 3.0)  # A_i of eq. 9 [m^2]
         rest = model.strength * kernel(model.rest_length, model.smoothing_length_links)
         self._least = np.zeros(links)
         held = model.lifeline[model.lifeline >= 0]
         self._least[held] = _LAST_HOLD * np.maximum(rest[held], _LAST_HOLD * rest.mean())
+        degree = np.maximum(np.bincount(model.links.ravel(), minlength=count), 1)
+        # A particle that moves against all that it is linked to is slowed down at the rate of the inner friction.
+        self._shared_mass = np.sqrt(np.prod((model.mass / degree)[model.links], axis=1))
         self._least_tipward_sum = np.maximum(_LAST_HOLD * (self._sum_at_rootward @ (model.rest_length * rest)), 1e-300)
 
     def at(self, positions: Floats, elastic_modulus: float) -> LinkState:
@@ -89,12 +93,17 @@ class Springs:
         reduced = mass[i] * mass[j] / (mass[i] + mass[j])
         return 2.0 * ratio * np.sqrt(stiffness * reduced)
 
+    def friction(self, rate: float) -> Floats:
+        """Coefficient of each link [kg/s] with which linked hair takes up a common velocity at ``rate`` [1/s], (m,)."""
+        return rate * self._shared_mass
+
     def forces(self, links: LinkState, velocities: Floats, settings: DynamicsSettings) -> Floats:
         """Force of the damped springs on every particle [N], (n, 3). velocities: [m/s], (n, 3)."""
         pull, stiffness = self.tension(links, settings.bending_scale)
-        closing = np.einsum("ij,ij->i", self._difference @ velocities, links.unit)
+        parting = self._difference @ velocities
+        closing = np.einsum("ij,ij->i", parting, links.unit)
         pull = pull + self.damping(stiffness, settings.spring_damping) * closing
-        return self.spread(pull[:, None] * links.unit)
+        return self.spread(pull[:, None] * links.unit + self.friction(settings.inner_friction)[:, None] * parting)
 
     def spread(self, pull: Floats) -> Floats:
         """Add what pulls along every link to its rootward particle and take it from its tipward one, (m, 3) to (n, 3)."""
@@ -103,3 +112,7 @@ class Springs:
     def sum_at_ends(self, at_rootward: Floats, at_tipward: Floats) -> Floats:
         """Sum over the links of a particle, with one value for the rootward and one for the tipward end, (m, k) to (n, k)."""
         return self._sum_at_rootward @ at_rootward + self._sum_at_tipward @ at_tipward
+
+    def sum_around(self, of_links: Floats) -> Floats:
+        """Sum over all links of a particle, (m, k) to (n, k)."""
+        return self._sum_at_both @ of_links
