@@ -346,16 +346,22 @@ def inspect(head: Annotated[str, typer.Argument(metavar="HEAD", help="makehuman,
 @command()
 def bench(
     json: Annotated[Path | None, typer.Option("--json", help="Write all figures to this JSON file.")] = None,
+    of: Annotated[
+        str, typer.Option("--of", help="What is measured: animation, hairstyle, face; with commas between.")
+    ] = "animation,hairstyle,face",
     counts: Annotated[str, typer.Option(help="Counts of particles, with commas between.")] = "500,2000,5000",
+    strands: Annotated[str, typer.Option(help="Counts of strands, with commas between.")] = "10000,100000,200000",
+    texels: Annotated[str, typer.Option(help="Sizes of fine wrinkle fields, with commas between.")] = "512,2048",
     frames: Annotated[int, typer.Option(min=1, max=1000, help="How many frames are measured for each.")] = 30,
     head: HeadOption = None,
     set_: SetOption = None,
 ) -> None:
-    """Measure what each stage of the animation costs here, beside the paper and a k-d tree."""
-    from .commands.bench import bench
+    """Measure what each stage of animation, hairstyle and face costs here, beside the papers and a k-d tree."""
+    from .commands.bench import Amounts, bench, parse_subjects
     from .commands.documents import head_source, open_document, parse_counts
 
-    bench(open_document(None, set_ or (), head_source=head_source(head)), parse_counts(counts), frames, json)
+    amounts = Amounts(parse_counts(counts), parse_counts(strands), parse_counts(texels), frames)
+    bench(open_document(None, set_ or (), head_source=head_source(head)), parse_subjects(of), amounts, json)
 
 
 @command()

@@ -10,9 +10,12 @@ from scipy.spatial import cKDTree
 from headstudio.bench.neighbours import neighbour_cost
 
 
+HEAD = ("--head", "mannequin")
+
+
 def test_it_prints_a_column_for_each_count_and_writes_all_figures(headstudio, monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
-    ran = headstudio("bench", "--counts", "100,150", "--frames", 2, "--json", "bench.json", "--head", "mannequin")
+    ran = headstudio("bench", "--of", "animation", "--counts", "100,150", "--frames", 2, "--json", "bench.json", *HEAD)
     assert ran.status == 0
     for word in ("neighbours, ms", "solve, ms", "picture: light, ms", "frames a second", "6.7", "33 %", "cKDTree"):
         assert word in ran.output
@@ -25,6 +28,45 @@ def test_it_prints_a_column_for_each_count_and_writes_all_figures(headstudio, mo
         assert cost["fps"] == pytest.approx(1000 / cost["frame_ms"])
         assert cost["neighbours"]["steps"] > 0
         assert min(cost["stages"].values()) >= 0
+
+
+def test_hairstyles_stage_by_stage(headstudio, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
+    few = ("--strands", "300,600", "--set", "wisp.wisps=30", "--set", "wisp.points=8")
+    ran = headstudio("bench", "--of", "hairstyle", *few, "--json", "bench.json", *HEAD)
+    assert ran.status == 0
+    for word in ("wisps", "flow", "colour", "settings to strands", "final, 1024 x 1024", "1800000"):
+        assert word in ran.output
+    costs = json.loads(Path("bench.json").read_text())["hairstyles"]
+    assert [cost["strands"] for cost in costs] == [300, 600]
+    for cost in costs:
+        assert sum(cost["stages"].values()) == pytest.approx(cost["style_ms"], rel=0.5)
+        assert cost["final_ms"] > 0
+
+
+def test_a_face_and_its_carving(headstudio, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
+    ran = headstudio(
+        "bench",
+        "--of",
+        "face",
+        "--frames",
+        2,
+        "--texels",
+        "128",
+        "--set",
+        "fine.texture_size=128",
+        "--json",
+        "b.json",
+        *HEAD,
+    )
+    assert ran.status == 0
+    for word in ("shrinkage, furrows, normals", "frames a second", "two fine fields of 128 x 128"):
+        assert word in ran.output
+    report = json.loads(Path("b.json").read_text())
+    assert report["face"]["fps"] == pytest.approx(1000 / report["face"]["frame_ms"])
+    assert report["face"]["refined"] > report["face"]["triangles"]
+    assert report["carvings"][0]["segments"] > 100
 
 
 def test_it_counts_the_pairs_that_the_tree_finds():

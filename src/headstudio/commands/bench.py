@@ -1,10 +1,10 @@
-"""``headstudio bench``: what the animation costs on this machine, stage by stage, beside the paper and a k-d tree."""
+"""``headstudio bench``: what animation, hairstyles and faces cost on this machine, stage by stage, beside the papers."""
 
 from __future__ import annotations
 
 import functools
 import os
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,11 @@ from ..bench.animation import (
     animation_cost,
     frames_to_draw,
 )
+from ..bench.face import PAPER_CARVING_S, CarvingCost, FaceCost, carving_cost, face_cost
+from ..bench.face import PAPER_FPS as PAPER_FACE_FPS
+from ..bench.face import WARM_UP as FACE_WARM_UP
+from ..bench.hairstyle import PAPER_PICTURE_S, PAPER_PREVIEW_S, REPEATS, HairstyleCost, hairstyle_cost
+from ..params import ParameterError
 from ..render.context import headless_context
 from ..render.renderer import Renderer
 from ..scene.builder import Builder
@@ -25,26 +30,69 @@ from .reporting import counting, results
 from .simulate import check_can_be_written, write_report
 from .versions import versions
 
+SUBJECTS = ("animation", "hairstyle", "face")
 
-def bench(document: Document, counts: tuple[int, ...], frames: int, out: Path | None) -> None:
-    """Measure the animation for each count of particles; print a table and write JSON to ``out`` unless it is None."""
+
+@dataclass(frozen=True)
+class Amounts:
+    """How much of each is measured: counts of particles and of strands, edges of fine fields in texels, frames."""
+
+    particles: tuple[int, ...]
+    strands: tuple[int, ...]
+    texels: tuple[int, ...]
+    frames: int
+
+
+def parse_subjects(words: str) -> tuple[str, ...]:
+    """``animation,face`` as names. Raises ParameterError."""
+    names = tuple(word.strip() for word in words.split(","))
+    if not set(names) <= set(SUBJECTS):
+        raise ParameterError(f"what is measured is {', '.join(SUBJECTS)}, with commas between; got {words!r}")
+    return names
+
+
+def bench(document: Document, subjects: tuple[str, ...], amounts: Amounts, out: Path | None) -> None:
+    """Measure each of ``subjects``; print a table for each and write JSON to ``out`` unless it is None."""
     if out is not None:
         check_can_be_written(out)
     renderer, builder = Renderer(headless_context()), Builder()
-    with counting("measuring", len(counts) * frames_to_draw(frames)) as progress:
+    frames = amounts.frames
+    steps = {
+        "animation": len(amounts.particles) * frames_to_draw(frames),
+        "hairstyle": len(amounts.strands) * (REPEATS + 2),
+        "face": FACE_WARM_UP + frames + len(amounts.texels),
+    }
+    report: dict[str, Any] = {
+        "versions": versions(),
+        "renderer": str(renderer.context.info["GL_RENDERER"]),
+        "cores": os.cpu_count(),
+    }
+    with counting("measuring", sum(steps[subject] for subject in subjects)) as progress:
         tick = functools.partial(progress.advance, progress.task_ids[0])
-        costs = [animation_cost(document, count, frames, builder, renderer, tick) for count in counts]
-    results.print(_table(costs), soft_wrap=False)
+        if "animation" in subjects:
+            costs = [animation_cost(document, count, frames, builder, renderer, tick) for count in amounts.particles]
+            report |= _animations(costs)
+        if "hairstyle" in subjects:
+            styles = [hairstyle_cost(document, count, builder, renderer, tick) for count in amounts.strands]
+            report["hairstyles"] = [asdict(cost) for cost in styles]
+        if "face" in subjects:
+            face = face_cost(document, frames, builder, renderer, tick)
+            carvings = [carving_cost(document, texels, builder) for texels in amounts.texels]
+            progress.advance(progress.task_ids[0], len(carvings))
+            report |= {"face": asdict(face) | {"fps": face.fps}, "carvings": [asdict(cost) for cost in carvings]}
+    if "animation" in subjects:
+        results.print(_table(costs), soft_wrap=False)
+    if "hairstyle" in subjects:
+        results.print(_hairstyle_table(styles), soft_wrap=False)
+    if "face" in subjects:
+        results.print(_face_table(face, carvings), soft_wrap=False)
     if out is not None:
-        write_report(_report(costs, str(renderer.context.info["GL_RENDERER"])), out)
+        write_report(report, out)
 
 
-def _report(costs: list[AnimationCost], renderer: str) -> dict[str, Any]:
+def _animations(costs: list[AnimationCost]) -> dict[str, Any]:
     derived = ("fps", "real_time", "simulation_share")
     return {
-        "versions": versions(),
-        "renderer": renderer,
-        "cores": os.cpu_count(),
         "paper": {"particles": 2000, "fps": PAPER_FPS, "simulation_share": PAPER_SIMULATION_SHARE},
         "animations": [
             asdict(cost)
@@ -53,6 +101,41 @@ def _report(costs: list[AnimationCost], renderer: str) -> dict[str, Any]:
             for cost in costs
         ],
     }
+
+
+def _hairstyle_table(costs: list[HairstyleCost]) -> Table:
+    """A column for each count of strands, milliseconds."""
+    table = Table("one hairstyle, ms", *(f"{cost.strands:,} strands" for cost in costs), "paper: 80,000-100,000")
+    for column in table.columns[1:]:
+        column.justify = "right"
+    table.add_row("points a strand", *(f"{cost.points}" for cost in costs), "")
+    for stage in costs[0].stages:
+        table.add_row(stage, *(f"{cost.stages[stage]:.0f}" for cost in costs), "")
+    table.add_section()
+    table.add_row("settings to strands", *(f"{cost.style_ms:.0f}" for cost in costs), "")
+    table.add_row("the first 20,000", *(f"{cost.preview_ms:.0f}" for cost in costs), f"{1e3 * PAPER_PREVIEW_S:.0f}")
+    table.add_row("first picture, 512 x 512", *(f"{cost.show_ms:.0f}" for cost in costs), "")
+    table.add_row("final, 1024 x 1024", *(f"{cost.final_ms:.0f}" for cost in costs), f"{1e3 * PAPER_PICTURE_S:.0f}")
+    return table
+
+
+def _face_table(face: FaceCost, carvings: list[CarvingCost]) -> Table:
+    """The frame of an animated face, and the carving of its fine wrinkles, milliseconds."""
+    table = Table("one frame of a face, ms", "here", "thesis")
+    for column in table.columns[1:]:
+        column.justify = "right"
+    table.add_row("triangles, and with furrows", f"{face.triangles:,} / {face.refined:,}", "20,000")
+    table.add_row("muscles, jaw, lids, tissue", f"{face.muscles_ms:.1f}", "")
+    table.add_row("shrinkage, furrows, normals", f"{face.furrows_ms:.1f}", "")
+    table.add_row("amplitudes of fine wrinkles", f"{face.fine_ms:.1f}", "")
+    table.add_row("all of the skin", f"{face.skin_ms:.1f}", "")
+    table.add_row("picture, 512 x 512", f"{face.picture_ms:.1f}", "")
+    table.add_row("frames a second", f"{face.fps:.1f}", f"{PAPER_FACE_FPS}")
+    table.add_section()
+    for cost in carvings:
+        paper = f"{1e3 * PAPER_CARVING_S:.0f}" if cost.texels == 512 else ""
+        table.add_row(f"two fine fields of {cost.texels} x {cost.texels}", f"{cost.carving_ms:.0f}", paper)
+    return table
 
 
 def _table(costs: list[AnimationCost]) -> Table:
