@@ -1,4 +1,4 @@
 #version 330
-in vec3 v_colour;
+in vec4 v_colour;
 out vec4 colour;
-void main() { colour = vec4(v_colour, 1.0); }
+void main() { colour = vec4(v_colour.rgb * v_colour.a, v_colour.a); }

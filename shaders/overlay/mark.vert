@@ -1,8 +1,8 @@
 #version 330
 #include "common/scene.glsl"
 in vec3 position;
-in vec3 mark_colour;
-out vec3 v_colour;
+in vec4 mark_colour;
+out vec4 v_colour;
 
 void main() {
     v_colour = mark_colour;

@@ -101,7 +101,7 @@ class Application:
 
     def _draw(self) -> None:
         self.ui.new_frame()
-        self._follow_hair()
+        self._follow_work()
         if not self.dialogs.asking:
             run_pressed(self.commands)
         top = shell.menu_bar(self.ui, self.commands, {"Open...": self.actions.recent_menu})
@@ -136,22 +136,22 @@ class Application:
                     self.open_editor(editor)
 
     def open_editor(self, editor: Editor) -> None:
-        """Open a tab; hair is shown as what the tab is about."""
+        """Open a tab; hair and skin are shown as what the tab is about."""
         if editor is self.editor:
             return
         self.editor = editor
         self.viewport.tool = self.tools[0]
         self.commands = self.actions.commands()
-        self.studio.work.hair_as = editor.hair_as
+        work = self.studio.work
+        work.hair_as, work.skin_as = editor.hair_as or work.hair_as, editor.skin_as or work.skin_as
 
-    def _follow_hair(self) -> None:
-        """A project that was opened, or a build that was cancelled, may show other hair than the open tab is about."""
-        hair_as = self.studio.work.hair_as
-        if hair_as != self.editor.hair_as:
-            for editor in EDITORS:
-                if editor.hair_as == hair_as:
-                    self.open_editor(editor)
-                    return
+    def _follow_work(self) -> None:
+        """A project that was opened, or a build that was cancelled, may show something else than the open tab is about."""
+        work = self.studio.work
+        for editor in (self.editor, *EDITORS):
+            if editor.is_about(work.hair_as, work.skin_as):
+                self.open_editor(editor)
+                return
 
     def _draw_view(self, layout: shell.Layout) -> None:
         view = layout.view

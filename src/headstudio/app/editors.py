@@ -8,6 +8,7 @@ from typing import Protocol
 
 from .parameter_rows import Panel, ParameterRows
 from .studio import Studio
+from .tools.paint_map import DENSITY, LENGTH, PARTICLE_LENGTH, PROTRUSION, painter
 from .tools.part_hair import PartHair
 from .tools.scalp_curves import ShapeScalp
 from .tools.shake_head import ShakeHead
@@ -16,6 +17,7 @@ from .tools.whorl import PlaceWhorl
 from .ui import Ui
 from .viewport import Viewport
 from .wisps.steps import WispSteps
+from .wrinkles.steps import WrinkleSteps
 
 
 class Steps(Protocol):
@@ -29,16 +31,22 @@ class Steps(Protocol):
 class Editor:
     """One tab. The first tool is the one in the hand when the tab opens.
 
-    hair_as: what hair is made of while the tab is open, one of HAIR_AS. shown: the ticks on the left side, beside the
-    picture that they change. steps: makes what stands above the panels.
+    hair_as: what hair is made of while the tab is open, one of HAIR_AS; None leaves it as it was. skin_as: what the skin
+    does, one of SKIN_AS, or None. shown: the ticks on the left side, beside the picture that they change. steps: makes what
+    stands above the panels.
     """
 
     label: str
-    hair_as: str
+    hair_as: str | None
     tools: tuple[Callable[[Studio], Tool], ...]
     panels: tuple[Panel, ...]
     shown: tuple[str, ...]
     steps: Callable[[ParameterRows, Viewport, Sequence[Tool]], Steps] | None = None
+    skin_as: str | None = None
+
+    def is_about(self, hair_as: str, skin_as: str) -> bool:
+        """Whether what is shown is what this tab works on."""
+        return self.hair_as in (None, hair_as) and self.skin_as in (None, skin_as)
 
 
 # Fields of the look that other parts of the window show.
@@ -48,7 +56,7 @@ ELSEWHERE = (*TICKS, "hair_as")
 HAIR = Editor(
     "Hair",
     "particles",
-    tools=(ShakeHead, PartHair, ShapeScalp, PlaceWhorl),
+    tools=(ShakeHead, PartHair, ShapeScalp, PlaceWhorl, painter(PARTICLE_LENGTH)),
     panels=(
         Panel("Head", "head"),
         Panel("Scalp", "scalp"),
@@ -63,7 +71,7 @@ HAIR = Editor(
 WISPS = Editor(
     "Wisps",
     "strands",
-    tools=(ShakeHead, ShapeScalp, PlaceWhorl),
+    tools=(ShakeHead, painter(DENSITY), painter(LENGTH), painter(PROTRUSION), ShapeScalp, PlaceWhorl),
     panels=(
         Panel("Shape of hair", "wisp", in_steps=True),
         Panel("Styling", "styling", in_steps=True),
@@ -77,4 +85,22 @@ WISPS = Editor(
     steps=WispSteps,
 )
 
-EDITORS = (HAIR, WISPS)
+WRINKLES = Editor(
+    "Wrinkles",
+    None,
+    tools=(ShakeHead,),
+    panels=(
+        Panel("Face", "face", in_steps=True),
+        Panel("Wrinkles", "wrinkle", in_steps=True),
+        Panel("Fine wrinkles", "fine", in_steps=True),
+        Panel("Skin", "skin", opened=False),
+        Panel("Head", "head", opened=False),
+        Panel("Look", "look", opened=False, elsewhere=(*ELSEWHERE, "skin_as", "skin_shows", "split")),
+        Panel("Camera", "camera", opened=False),
+    ),
+    shown=TICKS[:3],
+    steps=WrinkleSteps,
+    skin_as="living",
+)
+
+EDITORS = (HAIR, WISPS, WRINKLES)

@@ -34,15 +34,9 @@ class Edit:
 
 def draw(ui: Ui, declared: Parameter, value: Any, default: Any) -> Edit | None:
     """Draw one parameter with its label; returns what the user did, or None."""
-    width = imgui.get_content_region_avail().x
-    label_width = width * LABEL_SHARE
-    start = imgui.get_cursor_screen_pos()
-    _draw_label(ui, declared.label, changed=value != default, width=label_width)
+    begin_row(ui, declared.label, changed=value != default)
     pointed_at = _pointed_at()
     reset = imgui.is_item_clicked(1)
-    imgui.same_line(0, 0)
-    imgui.set_cursor_screen_pos((start.x + label_width, start.y))
-    imgui.set_next_item_width(width - label_width)
     changed, shown = _WIDGETS[declared.kind](ui, declared, value)
     ui.note(declared.label)
     reset |= imgui.is_item_clicked(1)
@@ -51,6 +45,17 @@ def draw(ui: Ui, declared: Parameter, value: Any, default: Any) -> Edit | None:
     if reset:
         return Edit(default)
     return _accept(declared, shown) if changed else None
+
+
+def begin_row(ui: Ui, label: str, *, changed: bool = False) -> None:
+    """Draw a label at the left; the next widget fills the row behind it."""
+    width = imgui.get_content_region_avail().x
+    label_width = width * LABEL_SHARE
+    start = imgui.get_cursor_screen_pos()
+    _draw_label(ui, label, changed=changed, width=label_width)
+    imgui.same_line(0, 0)
+    imgui.set_cursor_screen_pos((start.x + label_width, start.y))
+    imgui.set_next_item_width(width - label_width)
 
 
 def edit_item(ui: Ui, item: ItemT, only: Iterable[str] = ()) -> tuple[ItemT, str]:

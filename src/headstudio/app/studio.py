@@ -11,11 +11,12 @@ from ..head.mesh import Floats
 from ..io.film import FilmError
 from ..params import ParameterError
 from ..render.context import RenderError
-from ..scene.animation import Animation, needs
+from ..scene.animation import Animation, groundwork, needs
 from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.project import ProjectError
 from ..scene.stage import Stage
+from .brush import Brush
 from .builds import Builds
 from .messages import Messages
 from .performance import Performance
@@ -42,6 +43,7 @@ class Studio:
         self.messages = Messages()
         self.playback = Playback()
         self.performance = Performance(self.document.motion)
+        self.brush = Brush()
         self.grown: Grown | None = None
         self.stage: Stage | None = None
         builder = Builder(lambda part: self.builds.announce(part))
@@ -159,13 +161,13 @@ class Studio:
     def _follow_document(self) -> None:
         """Ask for a build when the document has moved away from what was built.
 
-        Particles wait for the end of a drag. Strands follow it: one build after the other, each to its end, since one that
-        gave way to every next position of the mouse would never be seen.
+        What takes long waits for the end of a drag. Strands and the depth of furrows follow it: one build after the other,
+        each to its end, since one that gave way to every next position of the mouse would never be seen.
         """
         document = self.document
-        if self.work.in_gesture and (self.building or document.look.hair_as != "strands"):
-            return
         known = self.builds.wanted or (self.grown.document if self.grown else self._refused)
+        if self.work.in_gesture and (self.building or known is None or groundwork(document) != groundwork(known)):
+            return
         if known is not None and _same_hair(document, known):
             return
         if self.grown is not None and _same_hair(document, self.grown.document):
@@ -178,9 +180,11 @@ class Studio:
         if finished is None:
             return
         if finished.result is not None:
+            goes_on = self.grown is not None and finished.result.animation.go_on_from(self.grown.animation)
+            if not goes_on:
+                self.performance = Performance(self.document.motion)
             self.grown = finished.result
             self._tuned = None
-            self.performance = Performance(self.document.motion)
             self.stage = None
         elif finished.error is not None:
             self.messages.say(explain(finished.error), "error")
@@ -190,7 +194,7 @@ class Studio:
         """Make the document one that there is hair for: the last such, or else one that can be built."""
         if self.grown is not None:
             grown = self.grown.document
-            self.work.hair_as = grown.look.hair_as
+            self.work.hair_as, self.work.skin_as = grown.look.hair_as, grown.look.skin_as
             if self.work.go_back(lambda document: _same_hair(document, grown)):
                 return
         self._stand_in()

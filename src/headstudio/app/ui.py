@@ -6,7 +6,7 @@ A thin layer over Dear ImGui: every widget notes the rectangle it was drawn in u
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -146,6 +146,22 @@ class Ui:
             yield shown
         if shown:
             imgui.dummy((0, self.px(4)))
+
+    def choose(self, label: str, shown: str, options: Iterable[str], help_: str = "") -> str | None:
+        """A list that opens below what is ``shown``; returns the option that was clicked in this frame."""
+        chosen = None
+        opened = imgui.begin_combo(f"##{label}", shown)
+        self.note(label)
+        if not opened:
+            self.hint(help_)
+            return None
+        with self.within(label):
+            for option in options:
+                if imgui.selectable(option, option == shown)[0]:
+                    chosen = option
+                self.note(option)
+        imgui.end_combo()
+        return chosen
 
     def caption(self, text: str) -> None:
         """A small heading."""

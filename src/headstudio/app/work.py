@@ -22,7 +22,8 @@ class Work:
 
     Looking around is no change of the work: the camera is saved with it but has a history of its own, so that undo
     never takes back a view and a glance from the side never costs a redo. Whether hair is shown as particles or as
-    strands is a way of looking, too: it goes with the tab that is open, and undo leaves it alone.
+    strands and whether the skin lives are ways of looking, too: they go with the tab that is open, and undo leaves them
+    alone.
     """
 
     def __init__(self) -> None:
@@ -30,6 +31,7 @@ class Work:
         self.history: History[Document] = History(document)
         self.views: History[Camera] = History(document.camera)
         self.hair_as = document.look.hair_as
+        self.skin_as = document.look.skin_as
         self.path: Path | None = None
 
     @property
@@ -50,8 +52,8 @@ class Work:
     def change(self, document: Document, label: str) -> None:
         """Replace the document (its camera apart); one entry of the history, or part of the open gesture."""
         present = self.history.document
-        self.hair_as = document.look.hair_as
-        look = replace(document.look, hair_as=present.look.hair_as)
+        self.hair_as, self.skin_as = document.look.hair_as, document.look.skin_as
+        look = replace(document.look, hair_as=present.look.hair_as, skin_as=present.look.skin_as)
         self.history.change(replace(document, camera=present.camera, look=look), label)
 
     def set(self, path: str, value: Any, label: str) -> None:
@@ -122,13 +124,15 @@ class Work:
         return True
 
     def _seen(self, document: Document) -> Document:
-        look = document.look if document.look.hair_as == self.hair_as else replace(document.look, hair_as=self.hair_as)
+        look = document.look
+        if (look.hair_as, look.skin_as) != (self.hair_as, self.skin_as):
+            look = replace(look, hair_as=self.hair_as, skin_as=self.skin_as)
         return replace(document, camera=self.views.document, look=look)
 
     def _reopen(self, document: Document, path: Path | None) -> None:
         self.history.reopen(document)
         self.views.reopen(document.camera)
-        self.hair_as = document.look.hair_as
+        self.hair_as, self.skin_as = document.look.hair_as, document.look.skin_as
         self.path = path
 
 

@@ -27,13 +27,16 @@ class HairOnStage:
 class Overlays:
     """Things drawn on top for whoever tunes the simulation; all in world coordinates [m].
 
-    segments: line pieces (k, 2, 3) with colours (k, 3). points: (p, 3) with colours (p, 3).
+    segments: line pieces (k, 2, 3) with colours (k, 3). points: (p, 3) with colours (p, 3). triangles: (t, 3, 3), seen
+    from the side that they turn counter-clockwise to, with colours and opacity of their corners (t, 3, 4).
     """
 
     segments: Floats = field(default_factory=lambda: np.zeros((0, 2, 3)))
     segment_colours: Floats = field(default_factory=lambda: np.zeros((0, 3)))
     points: Floats = field(default_factory=lambda: np.zeros((0, 3)))
     point_colours: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    triangles: Floats = field(default_factory=lambda: np.zeros((0, 3, 3)))
+    triangle_colours: Floats = field(default_factory=lambda: np.zeros((0, 3, 4)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -89,10 +89,15 @@ class LengthDistribution:
         return np.concatenate([[0.0], np.cumsum(0.5 * (y[1:] + y[:-1]) * np.diff(x))])
 
 
+def radius_points(settings: WispSettings) -> CurvePoints:
+    """The control points (s, r) of the deviation radius that the settings ask for, relative to that at the root."""
+    return settings.radius_curve or _DEVIATION_RADII[settings.deviation_radius]
+
+
 def deviation_radius(settings: WispSettings, s: Floats) -> NDArray[np.float64]:
     """r(s) as a multiple of the radius at the root, at parameters ``s``, any shape; smooth, and nowhere beyond its points.
 
     Raises ParameterError for control points that are no curve.
     """
-    x, y = checked_curve(settings.radius_curve or _DEVIATION_RADII[settings.deviation_radius]).T
+    x, y = checked_curve(radius_points(settings)).T
     return settings.radius * PchipInterpolator(x, y)(np.clip(s, x[0], x[-1]))

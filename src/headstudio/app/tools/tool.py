@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from imgui_bundle import imgui
+import numpy as np
+from imgui_bundle import ImVec2Like, imgui
 
 from ...head.frame import HeadFrame
 from ...head.head import Head
+from ...head.mesh import Floats
 from ...scene.stage import Stage
 from ..picking import Hit, Ray, View, pick_head
 from ..studio import Studio
@@ -48,6 +50,11 @@ class Canvas:
     x: float
     y: float
     scale: float
+
+    def on_screen(self, points: Floats) -> list[ImVec2Like]:
+        """Where points of the head [m], (n, 3), are in the window; those behind the camera far away."""
+        shown = self.view.project(self.frame.to_world(points)) + np.array([self.x, self.y])
+        return [(float(x), float(y)) for x, y in np.nan_to_num(shown, nan=-1e4)]
 
 
 class Tool:

@@ -8,9 +8,43 @@ from ..parameter_rows import ParameterRows
 from ..tools.tool import Tool
 from ..ui import Ui
 from ..viewport import Viewport
+from .distributions import WispStep
+from .hand import Hand
+from .maps import MapStep
+from .prototype import PrototypeStep
 from .styles import StyleList
 
-GLOBAL = ("wisps", "strands", "points", "segments", "seed")
+_GLOBAL = ("wisps", "strands", "points", "segments", "seed")
+_DEFORMATION = ("bending_stiffness", "density_threshold")
+_COLOUR = (
+    ("pigment", "eumelanin", "pheomelanin", "dye", "gray"),
+    ("tip_colour", "tip_amount", "tip_start", "streak_colour", "streaks"),
+)
+_SPREAD = (
+    "hue_distribution",
+    "hue_spread",
+    "wisp_hue_spread",
+    "saturation_distribution",
+    "saturation_spread",
+    "wisp_saturation_spread",
+    "value_distribution",
+    "value_spread",
+    "wisp_value_spread",
+    "seed",
+)
+_BEARD = (
+    "style",
+    "length",
+    "strands",
+    "prototype",
+    "curl_size",
+    "curl_length",
+    "protrusion",
+    "fuzziness",
+    "stiffness",
+    "shaft",
+    "seed",
+)
 
 
 class WispSteps:
@@ -18,9 +52,16 @@ class WispSteps:
 
     def __init__(self, rows: ParameterRows, viewport: Viewport, tools: Sequence[Tool]) -> None:
         self.rows = rows
+        hand = Hand(viewport, tools)
         self._sections: tuple[tuple[str, bool, Callable[[Ui], None]], ...] = (
             ("Styles", True, StyleList(rows).draw),
+            ("1 Maps", True, MapStep(rows, hand).draw),
             ("2 Global", True, self._draw_global),
+            ("3 Prototype", True, PrototypeStep(rows).draw),
+            ("4 Wisp", False, WispStep(rows).draw),
+            ("6 Deformation", False, lambda ui: rows.rows(ui, "styling", _DEFORMATION)),
+            ("7 Colour", False, self._draw_colour),
+            ("Beard", False, lambda ui: rows.rows(ui, "beard", _BEARD)),
         )
 
     def draw(self, ui: Ui) -> None:
@@ -31,5 +72,11 @@ class WispSteps:
                     draw(ui)
 
     def _draw_global(self, ui: Ui) -> None:
-        self.rows.rows(ui, "wisp", GLOBAL)
+        self.rows.rows(ui, "wisp", _GLOBAL)
         self.rows.row(ui, "look.strands_shown")
+
+    def _draw_colour(self, ui: Ui) -> None:
+        for fields in _COLOUR:
+            self.rows.rows(ui, "colour", fields)
+        ui.caption("Spread over strands and wisps")
+        self.rows.rows(ui, "colour", _SPREAD)

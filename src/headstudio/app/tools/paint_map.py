@@ -1,0 +1,208 @@
+"""Paint a map on the scalp: density, length and protrusion of hair (Choe, Ko 2005, section 2.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from imgui_bundle import icons_fontawesome_6 as icons
+from imgui_bundle import imgui
+
+from ...head.length_maps import preset, sample
+from ...head.mesh import Floats
+from ...head.scalp import Scalp
+from ...head.scalp_settings import GrayImage
+from ...scene.document import Document
+from ...scene.stage import Stage
+from ...wisp.follicles import tiles_of
+from ...wisp.maps import density_map, length_map, protrusion_map
+from ...wisp.proportions import Proportions
+from .. import theme
+from ..brush import BrushStroke, Sheet
+from ..map_colours import map_colours
+from ..parameter_widgets import edit_item
+from ..studio import Studio
+from ..ui import Ui
+from .tool import Canvas, Pointer, Tool
+
+_LIFT = 0.002  # of the coloured map off the skin [m]
+_RING = 48  # points of the drawn rim of the brush
+_OPACITY = 0.6
+
+
+@dataclass(frozen=True)
+class PaintedMap:
+    """A map of the document that can be painted: what it is called, and how it is read and replaced."""
+
+    label: str
+    icon: str
+    help: str
+    read: Callable[[Document], GrayImage]
+    write: Callable[[Document, GrayImage], Document]
+
+
+def _of_wisps(field: str) -> Callable[[Document, GrayImage], Document]:
+    def write(document: Document, image: GrayImage) -> Document:
+        changed: dict[str, Any] = {field: image}
+        return replace(document, wisp=replace(document.wisp, **changed))
+
+    return write
+
+
+DENSITY = PaintedMap(
+    "Density",
+    icons.ICON_FA_SEEDLING,
+    "Paint where hair grows densely; what is black grows none.",
+    lambda document: density_map(document.wisp),
+    _of_wisps("painted_density"),
+)
+LENGTH = PaintedMap(
+    "Length",
+    icons.ICON_FA_RULER_VERTICAL,
+    "Paint how long hair is, as a part of the longest.",
+    lambda document: length_map(document.wisp),
+    _of_wisps("painted_lengths"),
+)
+PROTRUSION = PaintedMap(
+    "Protrusion",
+    icons.ICON_FA_UP_LONG,
+    "Paint where hair stands up (bright) and where it lies on the scalp (dark).",
+    lambda document: protrusion_map(document.wisp),
+    _of_wisps("painted_protrusion"),
+)
+PARTICLE_LENGTH = PaintedMap(
+    "Lengths",
+    icons.ICON_FA_RULER_VERTICAL,
+    "Paint how long hair is, as a part of the longest.",
+    lambda document: document.scalp.painted_lengths or preset(document.scalp.length_map),
+    lambda document, image: replace(document, scalp=replace(document.scalp, painted_lengths=image)),
+)
+
+
+def painter(painted: PaintedMap) -> Callable[[Studio], PaintMap]:
+    """What makes the tool that paints this map."""
+    return lambda studio: PaintMap(studio, painted)
+
+
+class PaintMap(Tool):
+    """A brush on the scalp. Beside the scalp a press is for the camera."""
+
+    takes_shift = True
+
+    def __init__(self, studio: Studio, painted: PaintedMap) -> None:
+        super().__init__(studio)
+        self.painted = painted
+        self.label, self.icon = painted.label, painted.icon
+        self.help = f"{painted.help} Ctrl takes away, Shift smooths."
+        self._stroke: BrushStroke | None = None
+        self._sheet: tuple[object, Sheet] | None = None
+        self._dressed: tuple[object, Stage] | None = None
+
+    def press(self, pointer: Pointer) -> bool:
+        """Begin a stroke, if the brush touches the scalp."""
+        scalp = self._scalp
+        if scalp is None or pointer.hit is None:
+            return False
+        place = pointer.hit.point[None]
+        if np.linalg.norm(scalp.points(scalp.locate(place)) - place) > self.studio.brush.radius:
+            return False
+        action = "smooth" if pointer.shift else "lower" if pointer.ctrl else "raise"
+        before = self.painted.read(self.studio.document).pixels.astype(np.float64)
+        self._stroke = BrushStroke(self.studio.brush, self._sheet_for(scalp, before.shape), before, action)
+        self.studio.work.begin_gesture(self._name)
+        self.drag(pointer)
+        return True
+
+    def drag(self, pointer: Pointer) -> None:
+        """Paint on to where the mouse is."""
+        if self._stroke is None or pointer.hit is None:
+            return
+        self._stroke.move(pointer.hit.point)
+        image = GrayImage(self._stroke.result.astype(np.float32))
+        self.studio.work.change(self.painted.write(self.studio.document, image), self._name)
+
+    def release(self) -> None:
+        """The stroke is done."""
+        self._stroke = None
+        self.studio.work.end_gesture()
+
+    def options(self, ui: Ui) -> None:
+        """The brush, and filling the whole map."""
+        self.studio.brush, _ = edit_item(ui, self.studio.brush)
+        width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+        for label, value in (("Fill", 1.0), ("Clear", 0.0)):
+            if ui.button(label, f"Make the whole map {'white' if value else 'black'}.", width=width):
+                image = GrayImage(np.full((256, 256), value, dtype=np.float32))
+                self.studio.work.change(
+                    self.painted.write(self.studio.document, image), f"{label} {self._name.lower()}"
+                )
+            imgui.same_line()
+        imgui.new_line()
+
+    def dress(self, stage: Stage) -> Stage:
+        """The map in colours on the scalp."""
+        scalp = self._scalp
+        if scalp is None:
+            return stage
+        image = self.painted.read(self.studio.document)
+        if self._dressed is None or self._dressed[0] != (stage, image, scalp):
+            tiles = tiles_of(scalp)
+            vertices = tiles.vertices + _LIFT * scalp.normals(tiles.uv)
+            values = sample(image, tiles.uv)
+            colours = np.column_stack([map_colours(values), np.full(len(values), _OPACITY)])
+            overlays = replace(
+                stage.overlays,
+                triangles=stage.frame.to_world(vertices)[tiles.corners],
+                triangle_colours=colours[tiles.corners],
+            )
+            self._dressed = (stage, image, scalp), replace(stage, overlays=overlays)
+        return self._dressed[1]
+
+    def draw(self, canvas: Canvas) -> None:
+        """The rim of the brush on the skin, and that of its mirror image."""
+        stage = self.studio.stage
+        if stage is None or not imgui.is_item_hovered():
+            return
+        mouse = imgui.get_mouse_pos()
+        pointer = Pointer(mouse.x - canvas.x, mouse.y - canvas.y, canvas.view, stage.head, canvas.frame)
+        if pointer.hit is None:
+            return
+        place, normal = pointer.hit.point, stage.head.skin.face_normals[pointer.hit.face]
+        self._draw_rim(canvas, place, normal, 1.0)
+        if self.studio.brush.mirror:
+            middle = Proportions.of(stage.head.landmarks).centre[0]
+            flipped = np.array([-1.0, 1.0, 1.0])
+            self._draw_rim(canvas, flipped * (place - [middle, 0, 0]) + [middle, 0, 0], flipped * normal, 0.35)
+
+    def _draw_rim(self, canvas: Canvas, place: Floats, normal: Floats, strength: float) -> None:
+        across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+        across /= max(float(np.linalg.norm(across)), 1e-9)
+        turn = np.linspace(0, 2 * np.pi, _RING, endpoint=False)[:, None]
+        rim = place + self.studio.brush.radius * (np.cos(turn) * across + np.sin(turn) * np.cross(normal, across))
+        shown = canvas.on_screen(rim)
+        for colour, width in (
+            (theme.packed(theme.GROUND, 0.7 * strength), 3.5),
+            (theme.packed(theme.INK, strength), 1.5),
+        ):
+            canvas.drawing.add_polyline(shown, colour, width * canvas.scale, imgui.ImDrawFlags_.closed.value)
+
+    @property
+    def _name(self) -> str:
+        return f"{self.painted.label} map"
+
+    @property
+    def _scalp(self) -> Scalp | None:
+        return self.studio.grown.animation.scalp if self.studio.grown else None
+
+    def _sheet_for(self, scalp: Scalp, shape: tuple[int, ...]) -> Sheet:
+        """Where the texels lie, worked out once for each scalp."""
+        if self._sheet is None or self._sheet[0] != (scalp, shape):
+            v, u = ((np.arange(count) + 0.5) / count for count in shape)
+            uv = np.stack(np.meshgrid(u, v), axis=-1)
+            places = scalp.points(uv.reshape(-1, 2)).reshape(*shape, 3)
+            assert self.studio.grown is not None
+            middle = float(Proportions.of(self.studio.grown.animation.head.landmarks).centre[0])
+            self._sheet = (scalp, shape), Sheet(places, middle)
+        return self._sheet[1]
