@@ -83,9 +83,9 @@ class ParameterRows:
         for field in fields:
             self.row(ui, f"{part}.{field}")
 
-    def item(self, ui: Ui, item: ItemT) -> ItemT:
-        """The parameters of something in a list; returns it as it is after what the user did."""
-        item, complaint = parameter_widgets.edit_item(ui, item)
+    def item(self, ui: Ui, item: ItemT, only: Iterable[str] = ()) -> ItemT:
+        """The parameters of something in a list, or ``only`` some; returns it as it is after what the user did."""
+        item, complaint = parameter_widgets.edit_item(ui, item, only)
         self._complaint = complaint or self._complaint
         return item
 

@@ -21,6 +21,12 @@ NOTES = {
     "strands": "Growing the strands",
     "collisions": "Lifting strands off the head",
     "colour": "Colouring the hair",
+    "face": "Placing the muscles of the face",
+    "furrows": "Refining the skin around its furrows",
+    "creases": "Balancing furrows and bulges",
+    "fine wrinkles": "Carving fine wrinkles",
+    "amplitude": "Carving fine wrinkles",
+    "skin": "Joining the skin",
 }
 
 

@@ -21,6 +21,7 @@ from .builds import Builds
 from .messages import Messages
 from .performance import Performance
 from .playback import Playback
+from .styling_items import Chosen
 from .work import Work
 
 # What the program foresaw and says in its own words; anything else is named with its type.
@@ -44,6 +45,7 @@ class Studio:
         self.playback = Playback()
         self.performance = Performance(self.document.motion)
         self.brush = Brush()
+        self.chosen: Chosen | None = None
         self.grown: Grown | None = None
         self.stage: Stage | None = None
         builder = Builder(lambda part: self.builds.announce(part))
@@ -106,6 +108,17 @@ class Studio:
     def time(self) -> float:
         """Simulated time [s]."""
         return self.grown.animation.time if self.grown else 0.0
+
+    @property
+    def face_time(self) -> float:
+        """Where the performance of the face is [s]."""
+        return self.grown.animation.face_time if self.grown else 0.0
+
+    def seek_face(self, time: float) -> None:
+        """Put the performance of the face at ``time`` [s], not before 0."""
+        if self.grown is not None:
+            self.grown.animation.seek_face(max(time, 0.0))
+            self.stage = None
 
     def tick(self, wall: float, fixed: float | None = None) -> None:
         """Go on by one frame that comes ``wall`` seconds after the last one.

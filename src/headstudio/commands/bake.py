@@ -13,9 +13,9 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.files import write_atomically
 from ..wrinkle.bake import Bake, BakedSkin
+from ..wrinkle.expressions import FACES
 from ..wrinkle.face_settings import FaceSettings
 from .reporting import counting, say, working
-from .wrinkle import FACES
 
 MAPS = ("height", "normal", "ao", "weights")
 
@@ -63,7 +63,9 @@ def _write(baked: BakedSkin, maps: tuple[str, ...], out: Path) -> list[Path]:
     if "height" in maps:
         write_gray16(baked.height, low, high, files["height"])
     if "normal" in maps:
-        write_normals(np.where(baked.mapped[..., None], baked.normals, np.array([0, 0, 1], np.float32)), files["normal"])
+        write_normals(
+            np.where(baked.mapped[..., None], baked.normals, np.array([0, 0, 1], np.float32)), files["normal"]
+        )
     if "ao" in maps:
         write_gray16(baked.occlusion, 0.0, 1.0, files["ao"])
     write_atomically(out / "maps.json", json.dumps(meaning, indent=1).encode() + b"\n")

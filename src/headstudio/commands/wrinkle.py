@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from ..head.head import Head
 from ..io.meshes import MESH_SUFFIXES, write_head
 from ..params import ParameterError, assign
 from ..scene.document import Document
 from ..scene.stage import Stage
+from ..wrinkle.expressions import FACES
 from ..wrinkle.face_settings import SLIDERS
 from .documents import animate
 from .pictures import Photographer, Size, save_picture
 from .reporting import say, working
 
-FACES = {
-    "neutral": {},
-    "thinking": {"thinking": 1.0},
-    "smiling": {"smile": 1.0},
-    "troubled": {"troubled": 1.0},
-    "angry": {"angry": 1.0},
-    "surprised": {"surprise": 1.0},
-    "squinting": {"squint": 1.0},
-    "looking-down": {"look_down": 1.0},
-}
-"""The faces of the thesis, figures 2.10 to 2.13, and more, as sliders."""
+# Room for the face in the picture, in heights of the head.
+_ROOM = 1.35
 
 
 def face_settings(preset: str | None, expressions: Sequence[str]) -> dict[str, Any]:
@@ -51,13 +47,29 @@ def with_face(document: Document, preset: str | None, expressions: Sequence[str]
     return assign(document, changes)
 
 
-def wrinkle(document: Document, out: Path, size: Size) -> None:
-    """Write the face of a document as a picture (.png) or as a mesh. Raises HeadError, ParameterError, OSError."""
+def close_up(document: Document, head: Head) -> Document:
+    """The document with its camera on the face, from the side it looks from."""
+    marks = head.landmarks
+    x, y, z = 0.5 * (marks.hairline + marks.chin)
+    height = float(np.linalg.norm(marks.crown - marks.chin))
+    distance = 0.5 * _ROOM * height / math.tan(0.5 * document.camera.field_of_view)
+    return assign(
+        document,
+        {"camera.target_x": x, "camera.target_y": y, "camera.target_z": z, "camera.distance": distance},
+    )
+
+
+def wrinkle(document: Document, out: Path, size: Size, framed: bool) -> None:
+    """Write the face of a document as a picture (.png) or as a mesh; ``framed``: the camera goes close to the face.
+
+    Raises HeadError, ParameterError, OSError.
+    """
     suffix = out.suffix.lower()
     if suffix != ".png" and suffix not in MESH_SUFFIXES:
         raise ParameterError(f"a face is written to .png, {', '.join(MESH_SUFFIXES)}; got {out.name!r}")
     stage = animate(document).stage()
     if suffix == ".png":
+        document = close_up(document, stage.head) if framed else document
         save_picture(Photographer(size).still(stage, document, size), out)
     else:
         with working(f"writing {out.name}"):

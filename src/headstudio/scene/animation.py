@@ -36,6 +36,7 @@ class Animation:
         self._shown: tuple[FaceSettings, LivingSkin] | None = None
         self._time = 0.0
         self._frame = HeadFrame()
+        self._ahead = 0.0
 
     @property
     def time(self) -> float:
@@ -57,9 +58,30 @@ class Animation:
 
     def reset(self) -> None:
         """Back to rest, at time 0."""
-        self._time, self._frame = 0.0, HeadFrame()
+        self._time, self._frame, self._ahead = 0.0, HeadFrame(), 0.0
         if self.simulation is not None:
             self.simulation.reset()
+
+    def go_on_from(self, earlier: Animation) -> bool:
+        """Take over time and motion of another one with the same head and the same loose hair; False for any other."""
+        mine, theirs = self.simulation, earlier.simulation
+        if self.head is not earlier.head or (mine is None) != (theirs is None):
+            return False
+        if mine is not None and theirs is not None:
+            if mine.built.hair is not theirs.built.hair:
+                return False
+            self.simulation = theirs
+        self._time, self._frame, self._ahead = earlier._time, earlier._frame, earlier._ahead
+        return True
+
+    @property
+    def face_time(self) -> float:
+        """Where the performance of the face is [s]."""
+        return max(self.time + self._ahead, 0.0)
+
+    def seek_face(self, time: float) -> None:
+        """Put the performance of the face at ``time`` [s]; hair and head stay where they are."""
+        self._ahead = time - self.time
 
     def retune(self, document: Document) -> None:
         """Take over the parameters that need no other build."""
@@ -87,7 +109,7 @@ class Animation:
         """The face as it is now; the same object while nothing in it moves."""
         if self.skin is None:
             return None
-        face = self.document.face.at(self.time)
+        face = self.document.face.at(self.face_time)
         if self._shown is None or self._shown[0] != face:
             self._shown = (face, self.skin.at(face))
         return self._shown[1]
@@ -103,3 +125,12 @@ def needs(document: Document) -> tuple[Any, ...]:
         hair = (document.hair,)
     skin = (document.wrinkle, document.fine) if look.skin_as == "living" else ()
     return (document.head, document.scalp, look.hair_as, *hair, look.skin_as, *skin)
+
+
+def groundwork(document: Document) -> tuple[Any, ...]:
+    """The part of the needs that takes seconds to build: loose hair, and where the skin is refined and carved. The rest, such
+    as strands and the depth of furrows, is there soon enough to follow a drag of the mouse."""
+    look, wrinkle = document.look, document.wrinkle
+    hair = (document.head, document.scalp, document.hair) if look.hair_as == "particles" else ()
+    skin = (wrinkle.lines(), wrinkle.fineness, document.fine) if look.skin_as == "living" else ()
+    return (look.hair_as, *hair, look.skin_as, *skin)

@@ -137,7 +137,10 @@ class Builder:
         def grow() -> FineWrinkles:
             return grow_fine_wrinkles(texture_map, document.fine, face_guides(texture_map, head.landmarks))
 
-        return self._part("fine wrinkles", (texture_map, document.fine), grow)
+        # How far they are out at rest changes nothing that is carved.
+        at_rest = document.fine.initial_amplitude
+        fine = self._part("fine wrinkles", (texture_map, replace(document.fine, initial_amplitude=1.0)), grow)
+        return self._part("amplitude", (fine, at_rest), lambda: replace(fine, initial_amplitude=at_rest))
 
     def _part(self, kind: str, wanted: Any, make: Callable[[], PartT]) -> PartT:
         if kind not in self._made or self._made[kind][0] != wanted:

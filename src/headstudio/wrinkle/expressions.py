@@ -120,5 +120,17 @@ EXPRESSIONS: Mapping[str, Expression] = {
 """By the name that their sliders have; neutral is none of them. The thesis shows the first, third, fourth and the
 smile (figures 2.10 to 2.13)."""
 
+FACES: Mapping[str, Mapping[str, float]] = {
+    "neutral": {},
+    "thinking": {"thinking": 1.0},
+    "smiling": {"smile": 1.0},
+    "troubled": {"troubled": 1.0},
+    "angry": {"angry": 1.0},
+    "surprised": {"surprise": 1.0},
+    "squinting": {"squint": 1.0},
+    "looking-down": {"look_down": 1.0},
+}
+"""Faces to start from, those of the thesis (figures 2.10 to 2.13) and more, as sliders."""
+
 BLINK = Expression(upper_lid=1.0, lower_lid=1.0, contractions={"orbicularis oculi": 0.1})
 JAW_OPEN = Expression(jaw=math.radians(18))

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..head.scalp_settings import GrayImage
 from ..params import choice, number, parameters_of
-from .performance import Performance, check_performance, weights_at
+from .performance import Performance, check_performance, keyframe, weights_at, with_key
 
 DRIVERS = ("muscles", "units", "both")
 TISSUES = ("average", "lean", "full")
@@ -84,6 +84,24 @@ class FaceSettings:
         """The face at a time of its performance [s]: the sliders that it moves take its place."""
         moved: Mapping[str, Any] = weights_at(self.performance, time)
         return replace(self, **moved) if moved else self
+
+    def with_sliders(self, changes: Mapping[str, float], time: float) -> FaceSettings:
+        """The face with other strengths of some sliders: for good, or in a performance by a keyframe at ``time`` [s]."""
+        if not self.performance:
+            return replace(self, **changes)  # type: ignore[arg-type]  # sliders are numbers
+        return self.with_key(time, changes)
+
+    def with_key(self, time: float, changes: Mapping[str, float] | None = None) -> FaceSettings:
+        """The face with a keyframe of how it is at ``time`` [s] apart from ``changes``.
+
+        A slider that moves from now on keeps what it had at the other keyframes.
+        """
+        now, named = self.at(time), {name for key in self.performance for name, _ in key.weights}
+        weights = {name: float(getattr(now, name)) for name in SLIDERS} | dict(changes or {})
+        weights = {name: weight for name, weight in weights.items() if weight > 0 or name in named}
+        still = {name: float(getattr(self, name)) for name in weights if name not in named}
+        others = tuple(keyframe(key.time, still | dict(key.weights)) for key in self.performance)
+        return replace(self, performance=with_key(others, keyframe(time, weights)))
 
 
 SLIDERS: tuple[str, ...] = tuple(

@@ -28,6 +28,29 @@ def keyframe(time: float, weights: Mapping[str, float]) -> Keyframe:
     return Keyframe(float(time), tuple(sorted((name, float(value)) for name, value in weights.items())))
 
 
+SAME_TIME = 1 / 120
+"""Two keyframes nearer than this are one [s]."""
+
+
+def with_key(performance: Performance, key: Keyframe) -> Performance:
+    """``performance`` with a keyframe, in the place of the one at the same time if there is one."""
+    others = (other for other in performance if abs(other.time - key.time) >= SAME_TIME)
+    return tuple(sorted((*others, key), key=lambda each: each.time))
+
+
+def without_key(performance: Performance, index: int) -> Performance:
+    """``performance`` without one of its keyframes."""
+    return performance[:index] + performance[index + 1 :]
+
+
+def moved_key(performance: Performance, index: int, time: float) -> Performance:
+    """``performance`` with a keyframe at another ``time`` [s], between its neighbours and not before 0."""
+    low = performance[index - 1].time + 2 * SAME_TIME if index > 0 else 0.0
+    high = performance[index + 1].time - 2 * SAME_TIME if index + 1 < len(performance) else math.inf
+    moved = Keyframe(float(min(max(time, low), max(high, low))), performance[index].weights)
+    return performance[:index] + (moved,) + performance[index + 1 :]
+
+
 def check_performance(performance: Performance, sliders: tuple[str, ...]) -> Performance:
     """Return ``performance`` if times rise and every weight is a slider's from 0 to 1. Raises ValueError, a phrase."""
     times = [key.time for key in performance]
