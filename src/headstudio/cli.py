@@ -300,7 +300,7 @@ def wrinkle(
 
     document = open_document(project, set_ or (), head_source=head_source(head))
     document = with_face(document, preset, expression or (), wrinkles)
-    wrinkle(choose_view(document, view), out, parse_size(size))
+    wrinkle(choose_view(document, view), out, parse_size(size), framed=project is None)
 
 
 @command()
