@@ -70,13 +70,17 @@ class LaidFurrow:
     @property
     def fade_length(self) -> float:
         """Over how much of its length the furrow comes to full depth at either end [m]."""
-        return min(max(_FADE_WIDTHS * self.furrow.width, _FADE_PART * self.length), 0.5 * self.length)
+        return fade_length(self.length, self.furrow.width)
 
     def line(self, spacing: float) -> Floats:
         """Points along the furrow on the skin [m], no farther apart than ``spacing`` [m], (k, 3)."""
         count = max(int(np.ceil(self.length / spacing)), 2)
         at = np.linspace(0.0, self.length, count + 1)
         return np.stack([np.interp(at, self._arc, self.points[:, k]) for k in range(3)], axis=1)
+
+    def arc(self, t: Floats) -> Floats:
+        """Length along the furrow from its start to t [m], (k,)."""
+        return np.interp(t, self._t, self._arc)
 
     def beside_curve(self, beside: Beside, uv: Floats, distance: float) -> Floats:
         """Points, (k, 2), that lie where ``uv`` do but at another distance from the curve [m]."""
@@ -98,7 +102,7 @@ class LaidFurrow:
         toward = _divided(covector, np.maximum(found.distance, _FLOOR * self.furrow.width))
 
         tangent = self.chain.tangents(found.t)
-        arc = np.interp(found.t, self._t, self._arc)
+        arc = self.arc(found.t)
         from_end = np.minimum(arc, self.length - arc)
         part = np.clip(from_end / self.fade_length, 0.0, 1.0)
         rise = 6 * part * (1 - part) / self.fade_length * np.where(arc < 0.5 * self.length, 1.0, -1.0)
@@ -119,6 +123,11 @@ class LaidFurrow:
     def _metrics_at(self, t: Floats) -> Floats:
         flat = self._metrics.reshape(-1, 4)
         return np.stack([np.interp(t, self._t, flat[:, k]) for k in range(4)], axis=1).reshape(-1, 2, 2)
+
+
+def fade_length(length: float, width: float) -> float:
+    """Over how much of its length a furrow comes to full depth at either end [m]."""
+    return min(max(_FADE_WIDTHS * width, _FADE_PART * length), 0.5 * length)
 
 
 def _divided(vectors: Floats, lengths: Floats) -> Floats:
