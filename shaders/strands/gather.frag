@@ -29,10 +29,18 @@ vec3 in_texture(int k, vec3 at) {
     return vec3((at.xy + vec2(k % tiles, k / tiles)) / float(tiles), at.z);
 }
 
+bool beside(vec2 at) {
+    return any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)));
+}
+
 float hair_crossed_by(int k, vec3 place) {
     vec3 at = box_of(k, hair_sphere, place);
-    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 0.0;
-    return hair_crossed(in_texture(k, at));
+    return beside(at.xy) ? 0.0 : hair_crossed(in_texture(k, at));
+}
+
+// Radiance of the body and its depth, as seen in view k along the line through a place; far away where there is none.
+vec4 body_by(int k, vec3 at) {
+    return beside(at.xy) ? vec4(0.0, 0.0, 0.0, 1e9) : textureLod(body, in_texture(k, at).xy, 0.0);
 }
 
 void main() {
@@ -41,13 +49,13 @@ void main() {
     float known = 0.0, margin = 0.5 * bias / body_sphere.w;
     for (int k = 0; k < textureSize(directions, 0).y; ++k) {
         vec3 direction = texelFetch(directions, ivec2(2, k), 0).xyz;
-        vec3 at = in_texture(k, box_of(k, body_sphere, place));
+        vec3 at = box_of(k, body_sphere, place);
         vec3 light;
-        if (textureLod(body, at.xy, 0.0).a > at.z - margin) {
+        if (body_by(k, at).a > at.z - margin) {
             light = mix(sky_below, sky_above, 0.5 + 0.5 * dot(direction, upward)) * exp(-lost * hair_crossed_by(k, place));
         } else {
-            vec3 behind = in_texture(k ^ 1, box_of(k ^ 1, body_sphere, place));
-            vec4 wall = textureLod(body, behind.xy, 0.0);
+            vec3 behind = box_of(k ^ 1, body_sphere, place);
+            vec4 wall = body_by(k ^ 1, behind);
             if (wall.a < behind.z - margin) continue;  // inside the body
             vec3 there = place + direction * max((wall.a - behind.z) * 2.0 * body_sphere.w, 0.0);
             float crossed = hair_crossed_by(k ^ 1, there) - hair_crossed_by(k ^ 1, place);

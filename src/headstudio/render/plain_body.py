@@ -10,6 +10,8 @@ import numpy as np
 from ..head.mesh import Floats, TriangleMesh
 from .context import load_program, set_uniforms
 
+_NOTHING = bytes(24)  # a buffer cannot be empty
+
 
 class PlainBodyPrograms:
     """The shaders of plain meshes."""
@@ -31,10 +33,10 @@ class PlainBody:
             [np.zeros((0, 3), np.int64), *(mesh.faces + start for mesh, start in zip(meshes, starts))]
         )
         surface = context.buffer(
-            np.concatenate([self.vertices, self.normals], axis=1).astype("f4").tobytes() or b"0000"
+            np.concatenate([self.vertices, self.normals], axis=1).astype("f4").tobytes() or _NOTHING
         )
         self._soft = context.buffer(reserve=max(12 * len(self.vertices), 4))
-        indices = context.buffer(self.faces.astype("u4").tobytes() or b"0000")
+        indices = context.buffer(self.faces.astype("u4").tobytes() or _NOTHING)
         self._body = context.vertex_array(
             programs.body, [(surface, "3f 3f", "position", "normal"), (self._soft, "3f", "soft")], indices
         )

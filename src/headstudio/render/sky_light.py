@@ -37,6 +37,9 @@ BODY_SIZE = 256
 _TILES = 6
 # Places this near under the surface still see past it [m].
 _BIAS = 0.003
+# Depth, in boxes, where a view shows no body.
+_FAR = 1e9
+_NOTHING = bytes(12)  # a buffer cannot be empty
 
 
 class SkyPrograms:
@@ -77,14 +80,15 @@ class SkyLight:
         self._body = context.texture((side, side), 4, dtype="f4")
         self._body.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._body_target = context.framebuffer([self._body], context.depth_texture((side, side)))
+        self._corners = 3 * len(faces)
         self._radiance = context.buffer(reserve=max(12 * len(vertices), 4))
         self._surface = context.vertex_array(
             programs.body,
             [
-                (context.buffer(vertices.astype("f4").tobytes()), "3f", "position"),
+                (context.buffer(vertices.astype("f4").tobytes() or _NOTHING), "3f", "position"),
                 (self._radiance, "3f", "radiance"),
             ],
-            context.buffer(faces.astype("u4").tobytes()),
+            context.buffer(faces.astype("u4").tobytes() or _NOTHING),
         )
         half = sphere_directions(2 * detail.pairs)[: detail.pairs]
         self._directions = np.stack([half, -half], axis=1).reshape(-1, 3)
@@ -108,11 +112,11 @@ class SkyLight:
         self._radiance.write(radiance.astype("f4").tobytes())
         target = self._body_target
         with self._context.scope(target, moderngl.DEPTH_TEST):
-            target.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+            target.clear(0.0, 0.0, 0.0, _FAR, depth=1.0)
             for tile, light in enumerate(self._views):
                 target.viewport = (tile % _TILES * BODY_SIZE, tile // _TILES * BODY_SIZE, BODY_SIZE, BODY_SIZE)
                 set_uniforms(self._programs.body, map_from_head=tuple(light.clip_from_world.T.ravel()))
-                self._surface.render()
+                self._surface.render(vertices=self._corners)
             target.viewport = (0, 0, *target.size)
 
     def gather(self, places: Floats, sky: Sky, lost: Floats) -> Floats:

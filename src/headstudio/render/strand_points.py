@@ -25,6 +25,8 @@ DEFAULT_RADIUS = 4e-5
 """Half the thickness of a shaft [m] where the strands do not say it; the last fifth of a strand tapers to half of it."""
 
 _SHUFFLE = 20051
+# The direction of hair where points of a strand lie on each other.
+_DOWN = np.array([0.0, -1e-3, 0.0], np.float32)
 _RESTART = np.uint32(0xFFFFFFFF)
 
 
@@ -62,6 +64,7 @@ def pack(strands: Strands) -> PackedStrands:
     start, end = first[:-1], first[1:] - 1
     tangents[start] = place[start + 1] - place[start]
     tangents[end] = place[end] - place[end - 1]
+    tangents[~tangents.any(axis=1)] = _DOWN
     return PackedStrands(points, tangents, None if strands.colour is None else strands.colour[source], first)
 
 
