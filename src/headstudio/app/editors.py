@@ -8,9 +8,14 @@ from typing import Protocol
 
 from .parameter_rows import Panel, ParameterRows
 from .studio import Studio
+from .tools.adjust import Adjust
+from .tools.comb import Comb
+from .tools.draw_parting import DrawParting
 from .tools.paint_map import DENSITY, LENGTH, PARTICLE_LENGTH, PROTRUSION, painter
 from .tools.part_hair import PartHair
 from .tools.scalp_curves import ShapeScalp
+from .tools.scissors import Scissors
+from .tools.select_wisps import Lasso, PaintSelection
 from .tools.shake_head import ShakeHead
 from .tools.tool import Tool
 from .tools.whorl import PlaceWhorl
@@ -71,7 +76,20 @@ HAIR = Editor(
 WISPS = Editor(
     "Wisps",
     "strands",
-    tools=(ShakeHead, painter(DENSITY), painter(LENGTH), painter(PROTRUSION), ShapeScalp, PlaceWhorl),
+    tools=(
+        ShakeHead,
+        painter(DENSITY),
+        painter(LENGTH),
+        painter(PROTRUSION),
+        DrawParting,
+        Comb,
+        Scissors,
+        Adjust,
+        Lasso,
+        PaintSelection,
+        ShapeScalp,
+        PlaceWhorl,
+    ),
     panels=(
         Panel("Shape of hair", "wisp", in_steps=True),
         Panel("Styling", "styling", in_steps=True),

@@ -43,6 +43,7 @@ class MapStep:
         self.rows.rows(ui, "wisp", ("length", "protrusion"))
         self._parting.row(ui)
         self.rows.row(ui, "wisp.parting_reach")
+        self._hand.button(ui, "Parting", "Draw a parting", -1)
 
 
 class _Thumbnail:

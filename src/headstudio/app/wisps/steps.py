@@ -9,12 +9,29 @@ from ..tools.tool import Tool
 from ..ui import Ui
 from ..viewport import Viewport
 from .distributions import WispStep
+from .hairdressing import Hairdressing
 from .hand import Hand
 from .maps import MapStep
 from .prototype import PrototypeStep
 from .styles import StyleList
 
 _GLOBAL = ("wisps", "strands", "points", "segments", "seed")
+_FIELD = (
+    "gravity",
+    "back",
+    "forward",
+    "left",
+    "right",
+    "up",
+    "spiky",
+    "blown",
+    "blown_heading",
+    "parted",
+    "parting",
+    "off_face",
+    "inward",
+    "stroke_reach",
+)
 _DEFORMATION = ("bending_stiffness", "density_threshold")
 _COLOUR = (
     ("pigment", "eumelanin", "pheomelanin", "dye", "gray"),
@@ -53,14 +70,19 @@ class WispSteps:
     def __init__(self, rows: ParameterRows, viewport: Viewport, tools: Sequence[Tool]) -> None:
         self.rows = rows
         hand = Hand(viewport, tools)
+        dressing = self._dressing = Hairdressing(rows, hand)
         self._sections: tuple[tuple[str, bool, Callable[[Ui], None]], ...] = (
             ("Styles", True, StyleList(rows).draw),
             ("1 Maps", True, MapStep(rows, hand).draw),
             ("2 Global", True, self._draw_global),
             ("3 Prototype", True, PrototypeStep(rows).draw),
             ("4 Wisp", False, WispStep(rows).draw),
+            ("5 Styling force field", False, self._draw_field),
             ("6 Deformation", False, lambda ui: rows.rows(ui, "styling", _DEFORMATION)),
             ("7 Colour", False, self._draw_colour),
+            ("Operations", False, dressing.draw_operations),
+            ("Cuts", False, dressing.draw_cuts),
+            ("Accessories", False, dressing.draw_accessories),
             ("Beard", False, lambda ui: rows.rows(ui, "beard", _BEARD)),
         )
 
@@ -74,6 +96,10 @@ class WispSteps:
     def _draw_global(self, ui: Ui) -> None:
         self.rows.rows(ui, "wisp", _GLOBAL)
         self.rows.row(ui, "look.strands_shown")
+
+    def _draw_field(self, ui: Ui) -> None:
+        self.rows.rows(ui, "styling", _FIELD)
+        self._dressing.draw_strokes(ui)
 
     def _draw_colour(self, ui: Ui) -> None:
         for fields in _COLOUR:
