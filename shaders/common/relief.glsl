@@ -5,13 +5,14 @@ uniform sampler2D states;   // amplitude of both fine fields, of pores, and the 
 uniform sampler2D slopes;   // of both fields at full amplitude, along u and v [m for the width of the map]
 uniform sampler2D pores;    // slopes of the pores; mean squares of the fields' slopes
 uniform sampler2D heights;  // of both fields and pores [mm]; mean square of the pores' slopes
+uniform vec3 mean_heights;
 uniform float texels;       // along an edge of the map
 uniform float metres;       // that edge on the skin
 uniform float relief;       // exaggeration
 
 struct Relief {
     vec3 normal;
-    float open;          // to the sky, at the floor of fine furrows
+    float open;          // to the sky, relative to skin as a whole: less at the floor of fine furrows
     float hidden_slope;  // variance of slopes that are too small to be seen, along any axis
     float value;
 };
@@ -44,6 +45,6 @@ Relief relief_at(ivec2 pixel, vec3 place, vec3 n) {
     vec3 squares = vec3(small.zw, high.w);
     vec3 seen = vec3(dot(fields.xy, fields.xy), dot(fields.zw, fields.zw), dot(small.xy, small.xy)) / (metres * metres);
     found.hidden_slope = 0.5 * dot(amplitude * amplitude, max(squares - seen, 0.0));
-    found.open = clamp(exp(deepening * min(dot(amplitude, high.xyz), 0.0)), 0.0, 1.0);
+    found.open = min(exp(deepening * dot(amplitude, high.xyz - mean_heights)), 1.2);
     return found;
 }

@@ -18,6 +18,7 @@ uniform vec3 skin_colour;
 uniform vec3 hair_colour;
 uniform vec3 haemoglobin;     // density of a unit of blood, RGB
 uniform float flushed;
+uniform float blood_mean;     // painted where skin is neither flushed nor pale
 uniform float blood_flow;
 uniform float creases;
 uniform float gloss;
@@ -53,13 +54,15 @@ void main() {
     float open = (1.0 - painted.x) * mix(1.0, bumps.open, min(creases, 1.0));
     // Blood, in units of haemoglobin: where skin is thin there is more to be seen of it, and pressed skin keeps more.
     float pressed = shows_value ? 0.0 : 1.0 - 2.0 * bumps.value;
-    float blood = 0.28 * flushed * painted.w + 1.15 * 0.85 * lips + blood_flow * pressed;
+    float blood = 0.6 * flushed * (painted.w - blood_mean) + 1.15 * 0.85 * lips + blood_flow * pressed;
     vec3 pigment = exp(-max(blood, -0.5) * haemoglobin);
     vec3 albedo = skin_colour * pigment;
     albedo = mix(albedo, hair_colour * 0.35, hair);
 
     float n_l = dot(n, l), smooth_n_l = dot(smooth_n, l);
-    float lit = light_at(place + smooth_n * 0.0015, 0.0015 + 0.003 * (1.0 - max(smooth_n_l, 0.0)), 0.004);
+    // The more the light grazes, the farther the surface itself rises into it within the soft edge of the shadow.
+    float rise = min(sqrt(max(1.0 - smooth_n_l * smooth_n_l, 0.0)) / max(smooth_n_l, 0.1), 3.0);
+    float lit = light_at(place + smooth_n * 0.0015, 0.0015 + 0.0035 * rise, 0.004);
     vec3 soft_lit = mix(vec3(lit), vec3(lit * (1.3 - 0.3 * lit), lit, lit), min(scattering, 1.0));
 
     // Light that has been under the skin: of the smooth surface, bent as it is, plus what bumps add and take.
@@ -85,7 +88,7 @@ void main() {
 
     float n_v = max(dot(n, to_eye), 0.0), front = max(n_l, 0.0);
     vec3 mirrored, base = albedo;
-    float glossy = gloss * (1.0 - hair) * mix(1.0, open, 0.7);
+    float glossy = gloss * (1.0 - hair) * mix(1.0, open, 0.92);
     if (model == 0) {
         vec3 h = normalize(l + to_eye);
         float n_h = max(dot(n, h), 0.0);

@@ -26,6 +26,9 @@ class FineRelief:
             heights, pores = fine.heights, fine.pores
             wrapped, metres = fine.texels.map.wrapped, fine.texels.map.metres
         self.size = heights.shape[1]
+        covered = fine.texels.mapped if fine is not None else np.ones((1, 1), bool)
+        # What a furrow is deeper than is the skin around it, which is the mean where all is too small to be seen.
+        self.mean_heights = tuple(float(1e3 * height[covered].mean()) for height in (*heights, pores))
         slopes = [_slopes(height, wrapped) for height in (*heights, pores)]
         steepness = [((slope / metres) ** 2).sum(axis=-1) for slope in slopes]
         self.metres = metres

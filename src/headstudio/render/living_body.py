@@ -8,7 +8,6 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from ..head.mesh import Floats
 from ..lcp.model import HairModel
 from ..scene.settings import Look
 from ..scene.skin_settings import MODELS, SkinSettings
@@ -25,7 +24,7 @@ from .scene_block import linear
 from .screen import ScreenPasses
 from .skin_colour import HAEMOGLOBIN, skin_colour
 from .skin_paint import scalp_cover
-from .skin_shape import SkinPose, pose_of, shape_of, smooth_pose_of
+from .skin_shape import BLOOD_MEAN, MOST_HIDDEN, hidden_in_creases, pose_of, shape_of, smooth_pose_of
 from .skin_values import scale_colours, shown_values
 from .targets import PictureTargets
 from .view import View
@@ -64,7 +63,9 @@ class LivingBody:
         self._roots_of: HairModel | None = None
         self._openings = Openings(self.head.skin)
         hidden, hidden_parts = hidden_of_head(context, self.head)
-        self._parts = BodyParts(context, programs.part, self.head, hidden_parts)
+        self._parts = BodyParts(
+            context, programs.part, self.head, [np.minimum(part, MOST_HIDDEN) for part in hidden_parts]
+        )
         self._shape = shape = shape_of(surface, hidden)
         self._relief = FineRelief(context, shape.fine)
         count = len(shape.rest)
@@ -157,10 +158,11 @@ class LivingBody:
             forward=tuple(view.forward), upward=tuple(view.up / view.focal),
             sideward=tuple(view.right * width / height / view.focal),
             skin_colour=tuple(colour), hair_colour=tuple(linear(look.hair_colour)), haemoglobin=tuple(HAEMOGLOBIN),
-            flushed=skin.flush, blood_flow=skin.blood_flow, creases=skin.creases, gloss=skin.gloss,
+            flushed=skin.flush, blood_mean=BLOOD_MEAN, blood_flow=skin.blood_flow, creases=skin.creases, gloss=skin.gloss,
             roughness=skin.roughness, scattering=skin.scattering, steepest=STEEPEST, model=MODELS.index(skin.model),
             tint=tuple(colour / lafortune.MEASURED_ALBEDO), measured_diffuse=tuple(lafortune.DIFFUSE),
-            shows_value=shows_value, texels=float(relief.size), metres=relief.metres, relief=skin.relief,
+            shows_value=shows_value, texels=float(relief.size), metres=relief.metres,
+            mean_heights=relief.mean_heights, relief=skin.relief,
             **lafortune_uniforms(),
         )  # fmt: skip
         self._context.depth_func = "<"
@@ -198,16 +200,14 @@ class _PosedSkin:
         pose = pose_of(skin) if wrinkled else smooth_pose_of(skin)
         value = shown_values(shows, skin) if shows != "skin" else 0.5 + 0.5 * np.log2(np.maximum(pose.expansion, 1e-3))
         self.vertices.write(floats_of(np.concatenate([pose.positions, pose.normals], axis=1)))
-        self._states.write(floats_of(self._state(pose, value)))
+        states = np.column_stack([pose.amplitudes, hidden_in_creases(pose.height), value])
+        self._states.write(floats_of(states))
         self._taken = (skin, shows)
 
     def draw(self, fine: bool) -> None:
         """Into the framebuffer in use."""
         set_uniforms(self._body._programs.surface, wrinkled=float(fine))
         self._array.render()
-
-    def _state(self, pose: SkinPose, value: Floats) -> Floats:
-        return np.column_stack([pose.amplitudes, self._body._shape.creases(pose.height), value])
 
 
 def lafortune_uniforms() -> dict[str, object]:

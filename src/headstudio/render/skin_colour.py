@@ -2,7 +2,8 @@
 
 c = b - m a_m - h a_h, a plane through the base colour along the light that melanin and haemoglobin absorb. The thesis
 leaves the axes open; here they are those of Tsumura et al. 2003, found in pictures of faces, and so the plane lies in
-the space they were found in, the negative logarithm of linear RGB. There no amount of pigment leads below black.
+the space they were found in, the negative logarithm of RGB. There no amount of pigment leads below black. Melanin can
+also go by the absorption of eumelanin (Donner, Jensen 2006), which browns the skin where Tsumura's axis yellows it.
 """
 
 from __future__ import annotations
@@ -15,8 +16,16 @@ from ..scene.skin_settings import MONK_TONES, SkinSettings
 from .lafortune import MEASURED_ALBEDO
 from .scene_block import linear
 
-MELANIN = np.array([0.4143, 0.3570, 0.8372])
-"""a_m: what a unit of melanin adds to the negative logarithm of RGB."""
+# Wavelengths that stand for red, green and blue [nm].
+_WAVELENGTHS = np.array([610.0, 550.0, 465.0])
+
+
+def _unit(axis: Floats) -> Floats:
+    return axis / np.linalg.norm(axis)
+
+
+MELANIN = {"pictures": np.array([0.4143, 0.3570, 0.8372]), "spectra": _unit(_WAVELENGTHS**-3.33)}
+"""a_m: what a unit of melanin adds to the negative logarithm of RGB, by ``SkinSettings.pigments``."""
 
 HAEMOGLOBIN = np.array([0.2988, 0.6838, 0.6657])
 """a_h: what a unit of haemoglobin adds."""
@@ -33,13 +42,13 @@ def base_colour(skin: SkinSettings, look: Look) -> Floats:
 
 def skin_colour(skin: SkinSettings, look: Look) -> Floats:
     """c of equation 2.6: diffuse reflectivity, linear RGB in 0 to 1, (3,)."""
-    return pigmented(base_colour(skin, look), skin.melanin, skin.haemoglobin)
+    densities = skin.melanin * MELANIN[skin.pigments] + skin.haemoglobin * HAEMOGLOBIN
+    return denser(base_colour(skin, look), densities)
 
 
-def pigmented(base: Floats, melanin: float, haemoglobin: float) -> Floats:
-    """A reflectivity, (3,), with so much more of the pigments; never above 1."""
-    densities = -np.log(np.maximum(base, 1e-4)) + melanin * MELANIN + haemoglobin * HAEMOGLOBIN
-    colour: Floats = np.exp(-np.maximum(densities, 0.0))
+def denser(base: Floats, densities: Floats) -> Floats:
+    """A reflectivity, (3,), with so much added to its negative logarithm, (3,); never above 1."""
+    colour: Floats = np.exp(-np.maximum(densities - np.log(np.maximum(base, 1e-4)), 0.0))
     return colour
 
 

@@ -21,6 +21,7 @@ MONK_TONES = (
 """The ten tones of the Monk scale, sRGB, from light to dark."""
 
 TONES = ("own", *(f"monk {k}" for k in range(1, len(MONK_TONES) + 1)), "measured")
+PIGMENTS = ("spectra", "pictures")
 MODELS = ("simple", "lafortune")
 SCATTERING = ("curvature", "screen")
 
@@ -42,8 +43,21 @@ class SkinSettings:
     haemoglobin: float = number(
         0.0, "Haemoglobin", "", -0.5, 1.5, "Blood beyond the base colour, h of eq. 2.6: reddens the skin.", live=True
     )
+    pigments: str = choice(
+        "spectra",
+        "Pigments by",
+        PIGMENTS,
+        "What melanin absorbs, a_m of eq. 2.6: by its spectrum, or as found in pictures of faces, which is yellower.",
+        live=True,
+    )
     flush: float = number(
-        1.0, "Flush", "", 0.0, 3.0, "How much blood shows through on nose, cheeks, chin and ears.", live=True
+        1.0,
+        "Flush",
+        "",
+        0.0,
+        3.0,
+        "How uneven blood lies under the skin: red nose, cheeks, chin and ears, and blotches everywhere.",
+        live=True,
     )
     blood_flow: float = number(
         0.0,
