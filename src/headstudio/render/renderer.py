@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..scene.settings import TONE_MAPS, Camera, Look
 from ..scene.skin_settings import SkinSettings
 from ..scene.stage import Stage
+from .adornments import AdornmentPrograms, Adornments
 from .body import Body, BodyPrograms
 from .fibre import Fibre, colour_absorption
 from .hair import Hair, HairPrograms
@@ -49,6 +50,7 @@ class Renderer:
         self._living_programs = LivingPrograms(context, self._body_programs)
         self._hair_programs = HairPrograms(context)
         self._strand_programs = StrandPrograms(context)
+        self._adornment_programs = AdornmentPrograms(context)
         self._overlays = OverlayPass(context)
         self._sky_programs = SkyPrograms(context)
         self._sky_in: tuple[object, ...] | None = None
@@ -57,6 +59,7 @@ class Renderer:
         self._body: Body | LivingBody | None = None
         self._hair: Hair | None = None
         self._strands: StrandHair | None = None
+        self._adornments: Adornments | None = None
         self._maps: LightTargets | None = None
         self._final: Progress | None = None
         self._targets: PictureTargets | None = None
@@ -125,13 +128,14 @@ class Renderer:
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
             strands = self._pull_strands(stage, look)
+            worn = self._pull_adornments(stage, look)
             maps = self._maps_for(look.shadow_size)
             width, height = targets.size
             view, light = camera_view(camera, width / height), self._light(stage, look, hair, strands)
             self._scene_block.write(scene_block(view, light, stage.frame, look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
         with timer.stage("shadow"):
-            self._cast_shadows(body if look.show_head else None, look, maps)
+            self._cast_shadows(body if look.show_head else None, worn, look, maps)
         with timer.stage("light"):
             self._shed_light(hair, light, look, maps)
             if strands is not None:
@@ -142,6 +146,8 @@ class Renderer:
         self._hair_programs.strands.seen(view, float(view.depth(stage.frame.translation)), targets.scene.height).use(2)
         with timer.stage("body"):
             self._draw_body(body if look.show_head else None, view, look, targets, skin)
+            if worn is not None:
+                self._draw_adornments(worn, targets)
         if hair is not None:
             with timer.stage("hair"):
                 self._draw_hair(hair, view, look, targets)
@@ -185,6 +191,13 @@ class Renderer:
             self._strands = StrandHair(self.context, self._strand_programs, stage.strands, shown)
         return self._strands
 
+    def _pull_adornments(self, stage: Stage, look: Look) -> Adornments | None:
+        if not stage.adornments or not look.show_hair:
+            return None
+        if self._adornments is None or self._adornments.worn is not stage.adornments:
+            self._adornments = Adornments(self.context, self._adornment_programs, stage.adornments)
+        return self._adornments
+
     def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
         """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
         material = strand_material(look)
@@ -215,11 +228,15 @@ class Renderer:
         # In steps, so that the texels of the maps do not creep over the head as the hair moves.
         return light_view(look, centre, np.ceil(radius / 0.02) * 0.02)
 
-    def _cast_shadows(self, body: Body | LivingBody | None, look: Look, maps: LightTargets) -> None:
+    def _cast_shadows(
+        self, body: Body | LivingBody | None, worn: Adornments | None, look: Look, maps: LightTargets
+    ) -> None:
         with self.context.scope(maps.shadow, moderngl.DEPTH_TEST):
             maps.shadow.clear(depth=1.0)
             if body is not None and look.shadows:
                 body.draw_depth()
+            if worn is not None and look.shadows:
+                worn.draw_depth()
 
     def _shed_light(self, hair: Hair | None, light: View, look: Look, maps: LightTargets) -> None:
         maps.light.clear(1.0, 1.0, 1.0, 1.0)
@@ -244,6 +261,11 @@ class Renderer:
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             targets.scene.depth_mask = True
             body.draw_parts(look)
+
+    def _draw_adornments(self, worn: Adornments, targets: PictureTargets) -> None:
+        with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
+            targets.scene.depth_mask = True
+            worn.draw()
 
     def _draw_hair(self, hair: Hair, view: View, look: Look, targets: PictureTargets) -> None:
         with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):

@@ -103,7 +103,10 @@ class Animation:
     def stage(self) -> Stage:
         """What there is to see now."""
         stage = self.simulation.stage() if self.simulation else Stage(self.head, self._frame)
-        return replace(stage, strands=self.hairdo.strands if self.hairdo else None, skin=self._living_skin())
+        stage = replace(stage, skin=self._living_skin())
+        if self.hairdo is None:
+            return stage
+        return replace(stage, strands=self.hairdo.strands, adornments=self.hairdo.adornments)
 
     def _living_skin(self) -> LivingSkin | None:
         """The face as it is now; the same object while nothing in it moves."""

@@ -10,6 +10,7 @@ from ..head.frame import HeadFrame
 from ..head.head import Head
 from ..head.mesh import Floats
 from ..lcp.model import HairModel
+from ..wisp.adornment import Adornment
 from ..wisp.strands import Strands
 from ..wrinkle.living_skin import LivingSkin
 
@@ -43,7 +44,8 @@ class Overlays:
 class Stage:
     """One instant. Objects are compared by identity: what is the same object as in the last frame is not sent again.
 
-    head: at rest. skin: in the place of the head's own skin and parts, where the face lives.
+    head: at rest. skin: in the place of the head's own skin and parts, where the face lives. adornments: what is worn in
+    the hair.
     """
 
     head: Head
@@ -52,3 +54,4 @@ class Stage:
     overlays: Overlays = field(default_factory=Overlays)
     strands: Strands | None = None
     skin: LivingSkin | None = None
+    adornments: tuple[Adornment, ...] = ()
