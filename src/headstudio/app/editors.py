@@ -22,6 +22,7 @@ from .tools.whorl import PlaceWhorl
 from .ui import Ui
 from .viewport import Viewport
 from .wisps.steps import WispSteps
+from .wrinkles.furrow_tool import FurrowTool
 from .wrinkles.steps import WrinkleSteps
 
 
@@ -106,7 +107,7 @@ WISPS = Editor(
 WRINKLES = Editor(
     "Wrinkles",
     None,
-    tools=(ShakeHead,),
+    tools=(FurrowTool, ShakeHead),
     panels=(
         Panel("Face", "face", in_steps=True),
         Panel("Wrinkles", "wrinkle", in_steps=True),

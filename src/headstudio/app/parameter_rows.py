@@ -100,13 +100,13 @@ class ParameterRows:
     def set(self, path: str, value: Any) -> None:
         """Set a parameter, as a part of the gesture when a widget is held."""
         label = defaults()[path][0].label
-        self._hold(label, path)
+        self.hold(label, path)
         self.studio.set(path, value, label)
 
     def change(self, document: Document, label: str) -> None:
         """Replace the document, as a part of the gesture when a widget is held."""
         if document != self.studio.document:
-            self._hold(label)
+            self.hold(label)
             self.studio.work.change(document, label)
 
     def finish_frame(self) -> None:
@@ -128,7 +128,8 @@ class ParameterRows:
         imgui.pop_style_color()
         ui.note("Search")
 
-    def _hold(self, label: str, path: str = "") -> None:
+    def hold(self, label: str, path: str = "") -> None:
+        """What changes from now on until the widget is let go is one entry."""
         if imgui.is_any_item_active() and not self.studio.work.in_gesture:
             self.studio.work.begin_gesture(label, path)
             self._editing = True

@@ -98,8 +98,8 @@ def without_point(furrow: Furrow, index: int) -> Furrow | None:
         kept = controls[:-3]
     else:
         # As long as both curves together, a handle reaches as much farther.
-        before, after = (np.linalg.norm(controls[index + side] - controls[index]) for side in (-3, 3))
-        share = np.clip(before / max(before + after, 1e-12), 0.1, 0.9)
+        before, after = np.linalg.norm(controls[[index - 3, index + 3]] - controls[index], axis=1)
+        share = np.clip(before / np.maximum(before + after, 1e-12), 0.1, 0.9)
         start, end = controls[index - 3], controls[index + 3]
         first = start + (controls[index - 2] - start) / share
         second = end + (controls[index + 2] - end) / (1 - share)

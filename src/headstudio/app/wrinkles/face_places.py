@@ -8,7 +8,7 @@ import numpy as np
 
 from ...head.head import Head
 from ...head.locate import SurfacePoints, locator
-from ...head.mesh import Floats
+from ...head.mesh import Floats, Ints
 from ...wrinkle.face_chart import FaceChart
 from ...wrinkle.face_creases import face_layout
 from ...wrinkle.skin_layout import SkinLayout
@@ -19,7 +19,8 @@ class FacePlaces:
     """Everything between the skin at rest, texture space and chart of one head.
 
     A place is a point of the mapped part of the skin: a triangle and where in it, whatever the face does.
-    layout: the skin and its map. chart: where furrows are written down.
+    layout: the skin and its map. chart: where furrows are written down. own_face: the number that each triangle of the whole
+    skin has in the mapped part, -1 outside it, (m,).
     """
 
     def __init__(self, head: Head) -> None:
@@ -27,6 +28,8 @@ class FacePlaces:
         self.layout: SkinLayout = face_layout(head)
         self.chart = FaceChart(head, self.layout)
         self._mesh = self.layout.part.mesh
+        self.own_face: Ints = np.full(len(head.skin.faces), -1)
+        self.own_face[self.layout.part.faces] = np.arange(len(self.layout.part.faces))
 
     def of_skin(self, points: Floats) -> SurfacePoints:
         """The places nearest to points of the skin at rest [m], (k, 3)."""

@@ -9,8 +9,9 @@ from ..tools.tool import Tool
 from ..ui import Ui
 from ..viewport import Viewport
 from .expressions import ExpressionPanel
+from .furrow_panel import FurrowPanel
+from .furrow_tool import FurrowTool
 
-LARGE = ("shown", "strength", "breadth", "shrinkage", "fineness", "self_contact")
 FINE = (
     "on",
     "texture_size",
@@ -33,9 +34,10 @@ class WrinkleSteps:
 
     def __init__(self, rows: ParameterRows, viewport: Viewport, tools: Sequence[Tool]) -> None:
         self.rows = rows
+        (furrows,) = (tool.set for tool in tools if isinstance(tool, FurrowTool))
         self._sections: tuple[tuple[str, bool, Callable[[Ui], None]], ...] = (
             ("Expression", True, ExpressionPanel(rows).draw),
-            ("Large wrinkles", False, lambda ui: rows.rows(ui, "wrinkle", LARGE)),
+            ("Furrows", True, FurrowPanel(rows, furrows).draw),
             ("Fine wrinkles", False, lambda ui: rows.rows(ui, "fine", FINE)),
             ("Tissue", False, lambda ui: rows.rows(ui, "face", ("tissue", "tissue_lift"))),
         )

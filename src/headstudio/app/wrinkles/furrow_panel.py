@@ -1,0 +1,116 @@
+"""The list of furrows, what the chosen one is like, and sets to start from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from imgui_bundle import icons_fontawesome_6 as icons
+from imgui_bundle import imgui
+
+from .. import theme
+from ..parameter_rows import ParameterRows
+from ..ui import Ui
+from .furrow_set import FurrowSet
+
+AGES = {"Child": 0.05, "Young": 0.2, "Adult": 0.4, "Aged": 0.7, "Old": 1.0}
+HEIGHT = 170.0
+LARGE = ("shown", "strength", "breadth", "fineness", "self_contact", "shrinkage")
+
+
+class FurrowPanel:
+    """Everything about large wrinkles: Bando's thesis, section 2.5."""
+
+    def __init__(self, rows: ParameterRows, furrows: FurrowSet) -> None:
+        self.rows = rows
+        self._set = furrows
+        self._seen: int | None = None
+
+    def draw(self, ui: Ui) -> None:
+        """Ages, the list, the chosen furrow, and what holds for all."""
+        self._draw_ages(ui)
+        self._draw_list(ui)
+        number = self._set.chosen
+        if number is None:
+            ui.muted("Click a furrow, here or on the face.")
+        else:
+            self._draw_chosen(ui, number)
+        self._draw_all(ui)
+
+    def _draw_ages(self, ui: Ui) -> None:
+        document = self.rows.studio.document
+        own = bool(document.wrinkle.furrows)
+        ui.caption("Start from the default set")
+        gap = imgui.get_style().item_spacing.x / 2
+        width = (imgui.get_content_region_avail().x - gap * (len(AGES) - 1)) / len(AGES)
+        for k, (name, age) in enumerate(AGES.items()):
+            if k:
+                imgui.same_line(0, gap)
+            help_ = f"The furrows of a face of this age ({age:g}), in the place of those that are there."
+            if ui.button(name, help_, on=not own and document.wrinkle.age == age, width=width):
+                self._start_from(age, name)
+        before = document.wrinkle
+        after = self.rows.item(ui, before, ("age",))
+        if after != before:
+            # An artist's own furrows have their depths already; a new age is a new start.
+            self.rows.change(replace(document, wrinkle=replace(after, furrows=())), "Age of the skin")
+
+    def _start_from(self, age: float, name: str) -> None:
+        document = self.rows.studio.document
+        wrinkle = replace(document.wrinkle, age=age, furrows=())
+        self._set.chosen = None
+        self.rows.change(replace(document, wrinkle=wrinkle), f"{name} skin")
+
+    def _draw_list(self, ui: Ui) -> None:
+        furrows = self._set.furrows
+        regions = dict.fromkeys(furrow.region for furrow in furrows)
+        ui.caption(f"{len(furrows)} furrows{'' if self.rows.studio.document.wrinkle.furrows else ', the default set'}")
+        imgui.push_style_color(imgui.Col_.child_bg.value, theme.rgba(theme.GROUND))
+        imgui.begin_child("##furrows", (0, ui.px(HEIGHT)), imgui.ChildFlags_.always_use_window_padding.value)
+        chosen_anew = self._set.chosen is not None and self._set.chosen != self._seen
+        for region in regions:
+            own = [k for k, furrow in enumerate(furrows) if furrow.region == region]
+            if chosen_anew and self._set.chosen in own:
+                imgui.set_next_item_open(True)
+            title = region.capitalize() or "No region"
+            opened = imgui.tree_node_ex(f"{title}  {len(own)}###{title}")
+            ui.note(title)
+            if not opened:
+                continue
+            with ui.within(title):
+                for k in own:
+                    self._draw_entry(ui, k, reveal=chosen_anew and k == self._set.chosen)
+            imgui.tree_pop()
+        imgui.end_child()
+        imgui.pop_style_color()
+        self._seen = self._set.chosen
+
+    def _draw_entry(self, ui: Ui, number: int, *, reveal: bool) -> None:
+        furrow = self._set.furrows[number]
+        if imgui.selectable(f"{furrow.name}##{number}", number == self._set.chosen)[0]:
+            self._set.chosen = number
+        if reveal and not imgui.is_item_visible():
+            imgui.set_scroll_here_y()
+        ui.note(furrow.name)
+        ui.hint(
+            f"{1e3 * furrow.depth:.1f} mm deep, {1e3 * furrow.width:.1f} mm wide, {furrow.initial:.0%} of it at rest."
+        )
+
+    def _draw_chosen(self, ui: Ui, number: int) -> None:
+        furrow = self._set.furrows[number]
+        with ui.within("Furrow"):
+            edited = self.rows.item(ui, furrow)
+            if edited != furrow:
+                self.rows.hold("Furrow")
+                self._set.put(number, edited, "Furrow")
+            width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+            help_ = "The same furrow on the other side of the face."
+            if ui.button("Mirror", help_, icon=icons.ICON_FA_LEFT_RIGHT, width=width):
+                self._set.mirror_over(number)
+            imgui.same_line()
+            if ui.button("Remove", "Take this furrow away (Delete).", icon=icons.ICON_FA_TRASH_CAN, width=width):
+                self._set.remove(number)
+
+    def _draw_all(self, ui: Ui) -> None:
+        imgui.separator()
+        ui.caption("All furrows")
+        self.rows.rows(ui, "wrinkle", LARGE)

@@ -1,0 +1,194 @@
+"""Draw large wrinkles on the face, and take them by their handles (Bando's thesis, section 2.5.1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from imgui_bundle import icons_fontawesome_6 as icons
+from imgui_bundle import imgui
+
+from ...head.mesh import Floats
+from ...wrinkle.furrow import Furrow
+from ...wrinkle.furrow_editing import drawn_furrow, shifted, with_control, with_point, without_point
+from .. import theme
+from ..studio import Studio
+from ..ui import Ui
+from .furrow_lines import FurrowLines, furrow_lines, handle_places
+from .furrow_set import FurrowSet
+from .skin_canvas import SkinCanvas, Touch, as_points, draw_line
+from .skin_tool import SkinTool
+
+GRAB = 9.0  # how near a handle has to be, in units of a plain screen
+GRAB_LINE = 6.0
+STEP = 2.0  # the mouse moves so far for the next point of a stroke
+SHORTEST = 3e-3  # a stroke shorter than this is a click [m]
+
+
+@dataclass
+class _Stroke:
+    """A furrow that is being drawn: its points on the chart [m] and in the window."""
+
+    chart: list[Floats] = field(default_factory=list)
+    window: list[tuple[float, float]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class _Hold:
+    """What the mouse holds: a handle of the chosen furrow, or all of it; where it was taken, on the chart [m]."""
+
+    number: int
+    furrow: Furrow
+    handle: int | None
+    taken_at: Floats
+
+
+class FurrowTool(SkinTool):
+    """A stroke on the skin is a new furrow. A click on one chooses it, and its handles show."""
+
+    label = "Furrows"
+    icon = icons.ICON_FA_PEN_NIB
+    help = (
+        "Draw on the face: a new furrow. Click one to choose it, drag it or its handles. Ctrl+click its line for another "
+        "handle, a handle to take it away; Delete takes the furrow."
+    )
+
+    def __init__(self, studio: Studio) -> None:
+        super().__init__(studio)
+        self.set = FurrowSet(studio)
+        self._stroke: _Stroke | None = None
+        self._hold: _Hold | None = None
+
+    def press_on(self, canvas: SkinCanvas, touch: Touch) -> bool:
+        """Take a handle or a furrow, or begin a stroke."""
+        return self._take_handle(canvas, touch) or self._take_furrow(canvas, touch) or self._begin_stroke(canvas, touch)
+
+    def drag_on(self, canvas: SkinCanvas, touch: Touch) -> None:
+        """Draw on, or move what is held."""
+        place = canvas.under(touch.x, touch.y)
+        if place is None:
+            return
+        on_chart = canvas.faces.on_chart(place)[0]
+        if self._hold is not None:
+            self._move(self._hold, on_chart)
+        elif self._stroke is not None:
+            last = self._stroke.window[-1]
+            if np.hypot(touch.x - last[0], touch.y - last[1]) >= STEP * canvas.scale:
+                self._stroke.chart.append(on_chart)
+                self._stroke.window.append((touch.x, touch.y))
+
+    def release(self) -> None:
+        """A stroke becomes a furrow; one too short to be one lets go of the furrow that was chosen."""
+        stroke, self._stroke, self._hold = self._stroke, None, None
+        if stroke is not None:
+            points = np.array(stroke.chart)
+            if np.linalg.norm(np.diff(points, axis=0), axis=1).sum() < SHORTEST:
+                self.set.chosen = None
+            else:
+                with self.studio.reporting():
+                    age = self.studio.document.wrinkle.age
+                    self.set.add(drawn_furrow(points, age, self.set.furrows), "Draw furrow")
+        self.studio.work.end_gesture()
+
+    def options(self, ui: Ui) -> None:
+        """Whether both sides are edited at once."""
+        self.set.mirror = ui.checkbox(
+            "Both sides", self.set.mirror, "What is done on one side happens on the other too."
+        )
+
+    def draw_on(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, touch: Touch | None) -> None:
+        """All furrows as lines, the handles of the chosen one, and the stroke that is being drawn."""
+        if touch is not None and imgui.is_key_pressed(imgui.Key.delete) and self.set.chosen is not None:
+            self.set.remove(self.set.chosen)
+        lines = self._lines(canvas)
+        points, seen = canvas.on_screen(lines.places), canvas.seen(lines.places)
+        pointed = self._pointed_at(canvas, touch) if touch is not None and self._hold is None else None
+        chosen, scale = self.set.chosen, canvas.scale
+        for number in range(len(self.set.furrows)):
+            line = lines.line(number)
+            if number != chosen and line.stop > line.start:
+                colour = theme.packed(theme.INK, 0.95 if number == pointed else 0.6)
+                draw_line(drawing, points[line], seen[line], colour, 1.5 * scale, edge=0.8 * scale)
+        if chosen is not None:
+            line = lines.line(chosen)
+            if line.stop > line.start:
+                draw_line(drawing, points[line], seen[line], theme.packed(theme.ACCENT), 2.2 * scale, edge=1.2 * scale)
+            self._draw_handles(canvas, drawing, self.set.furrows[chosen], touch)
+        if self._stroke is not None:
+            drawing.add_polyline(as_points(np.array(self._stroke.window)), theme.packed(theme.ACCENT), 2.2 * scale, 0)
+
+    def _take_handle(self, canvas: SkinCanvas, touch: Touch) -> bool:
+        number = self.set.chosen
+        if number is None:
+            return False
+        furrow = self.set.furrows[number]
+        places, which = handle_places(canvas.faces, furrow.controls)
+        found = canvas.nearest(places, touch, GRAB)
+        if found is None:
+            return False
+        handle = int(which[found])
+        if touch.ctrl:
+            left = without_point(furrow, handle) if handle % 3 == 0 else None
+            if left is not None:
+                self.set.put(number, left, "Remove handle")
+            return True
+        self._take(number, furrow, handle, furrow.chain.controls[handle])
+        return True
+
+    def _take_furrow(self, canvas: SkinCanvas, touch: Touch) -> bool:
+        number = self._pointed_at(canvas, touch)
+        if number is None:
+            return False
+        furrow, place = self.set.furrows[number], canvas.under(touch.x, touch.y)
+        if place is None:
+            return False
+        on_chart = canvas.faces.on_chart(place)[0]
+        if touch.ctrl and number == self.set.chosen:
+            self.set.put(number, with_point(furrow, on_chart), "Add handle")
+            return True
+        self.set.chosen = number
+        self._take(number, furrow, None, on_chart)
+        return True
+
+    def _begin_stroke(self, canvas: SkinCanvas, touch: Touch) -> bool:
+        place = canvas.under(touch.x, touch.y)
+        if place is None:
+            return False
+        self._stroke = _Stroke([canvas.faces.on_chart(place)[0]], [(touch.x, touch.y)])
+        return True
+
+    def _take(self, number: int, furrow: Furrow, handle: int | None, taken_at: Floats) -> None:
+        self._hold = _Hold(number, furrow, handle, taken_at)
+        self.studio.work.begin_gesture("Move furrow")
+
+    def _move(self, hold: _Hold, to: Floats) -> None:
+        furrow, handle = hold.furrow, hold.handle
+        moved = shifted(furrow, to - hold.taken_at) if handle is None else with_control(furrow, handle, to)
+        self.set.put(hold.number, moved, "Move furrow")
+
+    def _lines(self, canvas: SkinCanvas) -> FurrowLines:
+        return furrow_lines(canvas.faces, tuple(furrow.controls for furrow in self.set.furrows))
+
+    def _pointed_at(self, canvas: SkinCanvas, touch: Touch) -> int | None:
+        lines = self._lines(canvas)
+        found = canvas.nearest(lines.places, touch, GRAB_LINE)
+        return int(lines.furrow[found]) if found is not None else None
+
+    def _draw_handles(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, furrow: Furrow, touch: Touch | None) -> None:
+        places, which = handle_places(canvas.faces, furrow.controls)
+        points, seen = canvas.on_screen(places), canvas.seen(places)
+        shown = {int(k): points[row] for row, k in enumerate(which) if seen[row]}
+        scale = canvas.scale
+        for k, point in shown.items():
+            joint = k if k % 3 == 0 else k - 1 if k % 3 == 1 else k + 1
+            if joint != k and joint in shown:
+                drawing.add_polyline(
+                    as_points(np.stack([shown[joint], point])), theme.packed(theme.ACCENT, 0.6), scale, 0
+                )
+        near = canvas.nearest(places, touch, GRAB) if touch is not None else None
+        held = int(which[near]) if near is not None else None
+        for k, point in shown.items():
+            radius = (5.0 if k % 3 == 0 else 3.6) * scale * (1.25 if k == held else 1.0)
+            (centre,) = as_points(point[None])
+            drawing.add_circle_filled(centre, radius + 1.6 * scale, theme.packed(theme.GROUND, 0.85))
+            drawing.add_circle_filled(centre, radius, theme.packed(theme.ACCENT if k % 3 == 0 else theme.INK))
