@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ..head.frame import HeadFrame
 from ..scene.settings import TONE_MAPS, Camera, Look
 from ..scene.skin_settings import SkinSettings
 from ..scene.stage import Stage
+from ..wrinkle.limb_skin import PosedLimb
 from .adornments import AdornmentPrograms, Adornments
 from .body import Body, BodyPrograms
 from .fibre import Fibre, colour_absorption
 from .hair import Hair, HairPrograms
-from .living_body import LivingBody, LivingPrograms
+from .limb_body import LimbBody
+from .living_body import LivingBody
 from .overlays import OverlayPass
 from .scene_block import SCENE_DTYPE, linear, scene_block, sky_and_ground
 from .screen import ScreenPasses
+from .skin_body import SkinBody, SkinPrograms
 from .skin_paint import coarse_faces
 from .sky_light import FINE, QUICK, Sky, SkyLight, SkyPrograms
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
@@ -47,7 +54,7 @@ class Renderer:
         self.context = context
         self.timer = StageTimer(context)
         self._body_programs = BodyPrograms(context)
-        self._living_programs = LivingPrograms(context, self._body_programs)
+        self._skin_programs = SkinPrograms(context, self._body_programs)
         self._hair_programs = HairPrograms(context)
         self._strand_programs = StrandPrograms(context)
         self._adornment_programs = AdornmentPrograms(context)
@@ -57,6 +64,7 @@ class Renderer:
         self._screens = ScreenPasses(context, "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | LivingBody | None = None
+        self._limb: LimbBody | None = None
         self._hair: Hair | None = None
         self._strands: StrandHair | None = None
         self._adornments: Adornments | None = None
@@ -85,13 +93,49 @@ class Renderer:
         the mean; 2 makes a still smooth and costs four times the time. ``skin``: how living skin takes the light. Raises
         RenderError for a size that cannot be drawn.
         """
-        before = self.context.fbo
-        try:
+        with self._putting_back():
             targets = self._targets_for((int(size[0]), int(size[1])), supersampling)
             self._render(stage, look, camera, targets, skin)
             if target is not None:
                 self.context.copy_framebuffer(target, targets.shown)
             return targets.picture
+
+    def render_limb(
+        self,
+        limb: PosedLimb,
+        look: Look,
+        camera: Camera,
+        size: Size = (512, 512),
+        supersampling: int = 1,
+        skin: SkinSettings = _AS_IT_COMES,
+    ) -> moderngl.Texture:
+        """Draw a hand, an arm or a foot where the head would be, lit and developed in the same way; see ``render``."""
+        with self._putting_back():
+            targets = self._targets_for((int(size[0]), int(size[1])), supersampling)
+            if self._limb is None or self._limb.skin is not limb.skin:
+                self._limb = LimbBody(self.context, self._skin_programs, limb.skin)
+            self._limb.pose(limb, look)
+            low, high = limb.positions.min(axis=0), limb.positions.max(axis=0)
+            light = light_view(look, (low + high) / 2, float(np.linalg.norm(high - low)) / 2)
+            view, maps = camera_view(camera, targets.size[0] / targets.size[1]), self._maps_for(look.shadow_size)
+            self._scene_block.write(scene_block(view, light, HeadFrame(), look).tobytes())
+            self._scene_block.bind_to_uniform_block(0)
+            self._cast_shadows(self._limb, None, look, maps)
+            maps.light.clear(1.0, 1.0, 1.0, 1.0)
+            maps.depth.use(0)
+            maps.map.use(1)
+            # A limb has no brows, whose strokes are all that its skin would take from this.
+            self._hair_programs.strands.seen(view, camera.distance, targets.scene.height).use(2)
+            self._draw_body(self._limb, view, look, targets, skin)
+            self._develop_picture(look, targets)
+            return targets.picture
+
+    @contextmanager
+    def _putting_back(self) -> Iterator[None]:
+        """Leave framebuffer and blending as they were."""
+        before = self.context.fbo
+        try:
+            yield
         finally:
             self.context.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
             if before is not None:
@@ -100,7 +144,13 @@ class Renderer:
                 self.context.gc()
 
     def render_final(
-        self, stage: Stage, look: Look, camera: Camera, size: Size, progress: Progress | None = None
+        self,
+        stage: Stage,
+        look: Look,
+        camera: Camera,
+        size: Size,
+        progress: Progress | None = None,
+        skin: SkinSettings = _AS_IT_COMES,
     ) -> moderngl.Texture | None:
         """Draw the stage with all of its strands, each exactly as wide as it is, and FINENESS squared samples a pixel.
 
@@ -108,7 +158,7 @@ class Renderer:
         """
         self._final = progress or (lambda done, of: True)
         try:
-            return self.render(stage, look, camera, size, supersampling=FINENESS)
+            return self.render(stage, look, camera, size, supersampling=FINENESS, skin=skin)
         except _StoppedError:
             return None
         finally:
@@ -177,7 +227,7 @@ class Renderer:
                 known = Body(self.context, self._body_programs, stage.head)
         else:
             if not isinstance(known, LivingBody) or known.surface is not stage.skin.surface:
-                known = LivingBody(self.context, self._living_programs, stage.skin.surface)
+                known = LivingBody(self.context, self._skin_programs, stage.skin.surface)
             known.pose(stage.skin, look)
         self._body = known
         return known
@@ -229,7 +279,7 @@ class Renderer:
         return light_view(look, centre, np.ceil(radius / 0.02) * 0.02)
 
     def _cast_shadows(
-        self, body: Body | LivingBody | None, worn: Adornments | None, look: Look, maps: LightTargets
+        self, body: Body | SkinBody | None, worn: Adornments | None, look: Look, maps: LightTargets
     ) -> None:
         with self.context.scope(maps.shadow, moderngl.DEPTH_TEST):
             maps.shadow.clear(depth=1.0)
@@ -244,7 +294,7 @@ class Renderer:
             hair.shed_light(light, look, maps)
 
     def _draw_body(
-        self, body: Body | LivingBody | None, view: View, look: Look, targets: PictureTargets, skin: SkinSettings
+        self, body: Body | SkinBody | None, view: View, look: Look, targets: PictureTargets, skin: SkinSettings
     ) -> None:
         surface = targets.surface if body is None else body.surface_target(targets)
         with self.context.scope(surface, moderngl.DEPTH_TEST):

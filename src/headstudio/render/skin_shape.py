@@ -10,8 +10,10 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..wrinkle.fine_wrinkles import FineWrinkles
+from ..wrinkle.limb_skin import LimbSkin, PosedLimb
 from ..wrinkle.living_skin import LivingSkin, SkinSurface
 from .skin_paint import coarse_faces, paint
+from .skin_values import limb_values, shown_values
 
 MOST_HIDDEN = 0.95
 """Of the sky, at rest: a mouth or an eye that is closed may open."""
@@ -59,14 +61,14 @@ class SkinShape:
 
 @dataclass(frozen=True, eq=False)
 class SkinPose:
-    """A skin at one instant. positions [m] and unit normals, (N, 3). amplitudes: of both fine fields, (N, 2).
-    height: displacement [m], (N,). expansion: over the area at rest, (N,)."""
+    """A skin at one instant. positions [m] and unit normals, (N, 3). amplitudes: of both fine fields, (N, 2). hidden: by
+    the walls of furrows, 0 to 1, (N,). value: of what the look shows on the skin, else of its expansion, 0 to 1, (N,)."""
 
     positions: Floats
     normals: Floats
     amplitudes: Floats
-    height: Floats
-    expansion: Floats
+    hidden: Floats
+    value: Floats
 
 
 def shape_of(surface: SkinSurface, hidden: Floats) -> SkinShape:
@@ -87,18 +89,48 @@ def shape_of(surface: SkinSurface, hidden: Floats) -> SkinShape:
     )
 
 
-def pose_of(skin: LivingSkin) -> SkinPose:
-    """A living skin as it is drawn."""
-    return SkinPose(skin.skin.positions, skin.skin.normals, skin.amplitudes, skin.skin.height, skin.expansion)
+def limb_shape_of(skin: LimbSkin, hidden: Floats) -> SkinShape:
+    """The shape of a limb's skin. hidden: of the sky, of every vertex of the limb, (n,)."""
+    limb, source = skin.limb, skin.source
+    on_map = np.zeros(len(source))
+    on_map[skin.mapped] = 1.0
+    # Where the map is cut, but not where it ends, skin goes on.
+    inside = np.ones(len(limb.vertices))
+    inside[source[on_map == 0]] = 0.0
+    none = np.zeros(len(limb.vertices))
+    painted = np.column_stack([np.minimum(hidden, MOST_HIDDEN), none, none, uneven_blood(limb.vertices, none)])
+    return SkinShape(
+        faces=neighbours_together(skin.opened.faces, skin.opened.vertices),
+        shadow_faces=neighbours_together(skin.opened.faces, skin.opened.vertices),
+        rest=skin.opened.vertices,
+        uv=skin.uv,
+        mapped=faded_in(limb.vertices, inside)[source] * on_map,
+        turning=np.zeros(len(source)),
+        curvature=curvature_of(limb)[source],
+        painted=painted[source],
+        fine=skin.fine,
+    )
 
 
-def smooth_pose_of(skin: LivingSkin) -> SkinPose:
+def pose_of(skin: LivingSkin, shows: str) -> SkinPose:
+    """A living skin as it is drawn; ``shows`` is ``Look.skin_shows``."""
+    hidden = hidden_in_creases(skin.skin.height)
+    return SkinPose(skin.skin.positions, skin.skin.normals, skin.amplitudes, hidden, shown_values(shows, skin))
+
+
+def smooth_pose_of(skin: LivingSkin, shows: str) -> SkinPose:
     """The same skin without a wrinkle."""
     surface = skin.surface
     normals = surface.spread(surface.head.skin.moved(skin.posed).vertex_normals)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     none = np.zeros(len(normals))
-    return SkinPose(surface.spread(skin.posed), normals, np.zeros((len(normals), 2)), none, skin.expansion)
+    return SkinPose(surface.spread(skin.posed), normals, np.zeros((len(normals), 2)), none, shown_values(shows, skin))
+
+
+def limb_pose_of(limb: PosedLimb, shows: str) -> SkinPose:
+    """A limb as it is drawn."""
+    values = limb_values(shows, limb)
+    return SkinPose(limb.positions, limb.normals, limb.amplitudes, np.zeros(len(limb.positions)), values)
 
 
 def uneven_blood(points: Floats, flush: Floats) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..head.mesh import Floats
+from ..wrinkle.limb_skin import PosedLimb
 from ..wrinkle.living_skin import LivingSkin
 from .scene_block import linear
 from .skin_colour import web_colour
@@ -19,16 +20,30 @@ _RISING = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")
 
 
 def shown_values(shows: str, skin: LivingSkin) -> Floats:
-    """Where every vertex stands on the scale, 0 to 1, (N,). ``shows``: a word of SKIN_SHOWS other than "skin"."""
+    """Where every vertex stands on the scale of ``Look.skin_shows``, 0 to 1, (N,). Skin as it is has its expansion, which
+    moves its blood."""
     match shows:
-        case "expansion":
-            return 0.5 + 0.5 * np.log2(np.maximum(skin.expansion, 1e-3))
         case "shrinkage":
             return 0.5 + 0.5 * _shrinkage(skin) / _SHRINKAGE
         case "amplitude":
             return _furrow_values(skin, skin.skin.amplitude, skin.amplitudes.mean(axis=1))
-        case _:
+        case "height":
             return 0.5 + 0.5 * skin.skin.height / _HEIGHT
+        case _:
+            return _expansion(skin.expansion)
+
+
+def limb_values(shows: str, limb: PosedLimb) -> Floats:
+    """The same of a limb, (k,), which has only fine wrinkles."""
+    match shows:
+        case "shrinkage":
+            return 0.5 + 0.5 * _larger(limb.shrinkage) / _SHRINKAGE
+        case "amplitude":
+            return limb.amplitudes.mean(axis=1)
+        case "height":
+            return np.full(len(limb.positions), 0.5)
+        case _:
+            return _expansion(limb.expansion)
 
 
 def scale_colours(shows: str, count: int = 256) -> Floats:
@@ -39,15 +54,24 @@ def scale_colours(shows: str, count: int = 256) -> Floats:
     return np.stack([np.interp(place, np.arange(len(stops)), colours[:, k]) for k in range(3)], axis=1)
 
 
+def _expansion(ratio: Floats) -> Floats:
+    """Half the area is 0, twice the area is 1."""
+    return 0.5 + 0.5 * np.log2(np.maximum(ratio, 1e-3))
+
+
 def _shrinkage(skin: LivingSkin) -> Floats:
-    """Across the furrow where there is one, across the fine wrinkles elsewhere; the larger of both fields, (N,)."""
+    """Across the furrow where there is one, across the fine wrinkles elsewhere, (N,)."""
     surface = skin.surface
     everywhere = np.zeros(len(skin.posed))
     if surface.fine is not None:
         part = surface.bed.layout.part.vertices
-        fields = surface.fine.shrinkage(skin.posed[part])
-        everywhere[part] = np.where(np.abs(fields[:, 0]) > np.abs(fields[:, 1]), fields[:, 0], fields[:, 1])
+        everywhere[part] = _larger(surface.fine.shrinkage(skin.posed[part]))
     return _furrow_values(skin, skin.skin.shrinkage, surface.spread(everywhere))
+
+
+def _larger(fields: Floats) -> Floats:
+    """Of the shrinkage across both fields, (n, 2), the one that is larger in size, (n,)."""
+    return np.where(np.abs(fields[:, 0]) > np.abs(fields[:, 1]), fields[:, 0], fields[:, 1])
 
 
 def _furrow_values(skin: LivingSkin, of_entries: Floats, elsewhere: Floats) -> Floats:

@@ -1,0 +1,206 @@
+"""Living skin on the graphics card, whatever body it is of: posed, wrinkled and covered with fine wrinkles.
+
+What stays the same is sent once; positions, normals and amplitudes when there is another pose.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from ..head.mesh import TriangleMesh
+from ..scene.settings import Look
+from ..scene.skin_settings import MODELS, SkinSettings
+from . import lafortune
+from .body import BodyPrograms
+from .buffers import bytes_of, floats_of, indices_of
+from .context import load_program, set_uniforms
+from .fine_relief import FineRelief
+from .openings import Openings
+from .scattering import STEEPEST, scattering_table
+from .scene_block import linear
+from .screen import ScreenPasses
+from .skin_colour import HAEMOGLOBIN, skin_colour
+from .skin_shape import BLOOD_MEAN, SkinPose, SkinShape
+from .skin_values import scale_colours
+from .targets import PictureTargets
+from .view import View
+
+
+class SkinPrograms:
+    """The shaders that draw living skin, and the tables they look into."""
+
+    def __init__(self, context: moderngl.Context, body: BodyPrograms) -> None:
+        self.depth = body.depth
+        self.part = body.part
+        self.surface = load_program(context, "skin/surface.vert", "skin/surface.frag")
+        self.screens = ScreenPasses(context, "light", room="skin")
+        table = scattering_table()
+        self.scattered = context.texture(table.shape[1::-1], 3, table.astype(np.float16), dtype="f2")
+        self.scattered.repeat_x = self.scattered.repeat_y = False
+        self.scale = context.texture((256, 1), 3, dtype="f1")
+        self.scale.repeat_x = False
+        self._scale_of = ""
+
+    def set_scale(self, shows: str) -> None:
+        """Put the colours of a scale into its texture."""
+        if shows != self._scale_of:
+            self.scale.write(bytes_of(scale_colours(shows)))
+            self._scale_of = shows
+
+
+class SkinBody:
+    """A skin that is posed anew whenever it moves; made once per shape."""
+
+    def __init__(
+        self, context: moderngl.Context, programs: SkinPrograms, shape: SkinShape, whole: TriangleMesh
+    ) -> None:
+        """whole: the skin at rest, as a surface that is open only where it ends."""
+        self.context = context
+        self.programs = programs
+        self._openings = Openings(whole)
+        self._relief = FineRelief(context, shape.fine)
+        body = np.column_stack([shape.turning, shape.curvature, shape.mapped])
+        count = len(shape.rest)
+        self._constants = [
+            (
+                context.buffer(floats_of(np.column_stack([shape.rest, shape.uv, body]))),
+                "3f 2f 3f",
+                "rest",
+                "uv",
+                "body",
+            ),
+            (context.buffer(bytes_of(shape.painted)), "4f1", "paint"),
+        ]
+        self.cover = context.buffer(bytes_of(np.zeros(count)))
+        self._faces = context.buffer(indices_of(shape.faces))
+        self._count = count
+        self._posed = self._array()
+        self._smooth: _PosedSkin | None = None
+        self._shadow = context.vertex_array(
+            programs.depth,
+            [
+                (self._posed.vertices, "3f 12x", "position"),
+                (context.buffer(floats_of(shape.turning)), "1f", "head_weight"),
+            ],
+            context.buffer(indices_of(shape.shadow_faces)),
+        )
+
+    def take(self, pose: SkinPose) -> None:
+        """Show this pose from now on."""
+        self._posed.write(pose)
+
+    def take_smooth(self, pose: SkinPose) -> None:
+        """Show this pose left of ``look.split``."""
+        if self._smooth is None:
+            self._smooth = self._array()
+        self._smooth.write(pose)
+
+    def draw_depth(self) -> None:
+        """The body into the shadow map."""
+        self._shadow.render()
+
+    def surface_target(self, targets: PictureTargets) -> moderngl.Framebuffer:
+        """Where ``draw_surface`` draws."""
+        return targets.skin.surface
+
+    def draw_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
+        """What the skin is like, into the framebuffer in use; texture 2 is the strands."""
+        set_uniforms(self.programs.surface, strands=2, creases=skin.creases)
+        # Half of the triangles face away, and their inside is only seen through an opening.
+        if not self._openings.shown_to(view.eye):
+            self.context.enable(moderngl.CULL_FACE)
+        target = self.surface_target(targets)
+        width, height = target.size
+        border = round(look.split * width)
+        if border < width:
+            target.scissor = (border, 0, width - border, height)
+            self._posed.draw(fine=True)
+        if border > 0:
+            target.scissor = (0, 0, border, height)
+            (self._smooth or self._posed).draw(fine=False)
+        target.scissor = (0, 0, width, height)
+        self.context.disable(moderngl.CULL_FACE)
+
+    def light_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
+        """The light that the skin sends to the eye, wherever the depth of the framebuffer in use shows that it is.
+
+        Texture 0 is the shadow map, 1 the light map.
+        """
+        relief, programs = self._relief, self.programs
+        textures = (
+            targets.normal,
+            targets.paint,
+            targets.distance,
+            targets.skin.place,
+            targets.skin.state,
+            relief.slopes,
+            relief.pores,
+            relief.heights,
+            programs.scattered,
+            programs.scale,
+        )
+        for unit, texture in enumerate(textures, start=3):
+            texture.use(unit)
+        shows_value = look.skin_shows != "skin"
+        if shows_value:
+            programs.set_scale(look.skin_shows)
+        colour = skin_colour(skin, look)
+        width, height = targets.normal.size
+        self.context.depth_func = ">"
+        programs.screens.draw(
+            "light", shadow_map=0, light_map=1, normals=3, paint=4, distances=5, places_in_map=6, states=7, slopes=8,
+            pores=9, heights=10, scattered=11, scale=12, size=(float(width), float(height)),
+            forward=tuple(view.forward), upward=tuple(view.up / view.focal),
+            sideward=tuple(view.right * width / height / view.focal),
+            skin_colour=tuple(colour), hair_colour=tuple(linear(look.hair_colour)), haemoglobin=tuple(HAEMOGLOBIN),
+            flushed=skin.flush, blood_mean=BLOOD_MEAN, blood_flow=skin.blood_flow, creases=skin.creases, gloss=skin.gloss,
+            roughness=skin.roughness, scattering=skin.scattering, steepest=STEEPEST, model=MODELS.index(skin.model),
+            tint=tuple(colour / lafortune.MEASURED_ALBEDO), measured_diffuse=tuple(lafortune.DIFFUSE),
+            shows_value=shows_value, texels=float(relief.size), metres=relief.metres,
+            mean_heights=relief.mean_heights, relief=skin.relief,
+            **lafortune_uniforms(),
+        )  # fmt: skip
+        self.context.depth_func = "<"
+
+    def draw_parts(self, look: Look) -> None:
+        """What belongs to the body and is no skin, into the framebuffer in use: nothing, unless a body has parts."""
+
+    def _array(self) -> _PosedSkin:
+        return _PosedSkin(
+            self.context, self.programs, self._count, [*self._constants, (self.cover, "1f1", "cover")], self._faces
+        )
+
+
+class _PosedSkin:
+    """The arrays of one pose."""
+
+    def __init__(
+        self,
+        context: moderngl.Context,
+        programs: SkinPrograms,
+        count: int,
+        constants: list[tuple[object, ...]],
+        faces: moderngl.Buffer,
+    ) -> None:
+        self._program = programs.surface
+        self.vertices = context.buffer(reserve=24 * count, dynamic=True)
+        self._states = context.buffer(reserve=16 * count, dynamic=True)
+        changing = [(self.vertices, "3f 3f", "position", "normal"), (self._states, "4f", "state")]
+        self._array = context.vertex_array(self._program, [*changing, *constants], faces)
+
+    def write(self, pose: SkinPose) -> None:
+        """Send a pose."""
+        self.vertices.write(floats_of(np.concatenate([pose.positions, pose.normals], axis=1)))
+        self._states.write(floats_of(np.column_stack([pose.amplitudes, pose.hidden, pose.value])))
+
+    def draw(self, fine: bool) -> None:
+        """Into the framebuffer in use."""
+        set_uniforms(self._program, wrinkled=float(fine))
+        self._array.render()
+
+
+def lafortune_uniforms() -> dict[str, object]:
+    """The figures of common/lafortune.glsl."""
+    tables = {"lobe_across": lafortune.ACROSS, "lobe_along": lafortune.ALONG, "lobe_exponents": lafortune.EXPONENTS}
+    return {name: [tuple(row) for row in table.tolist()] for name, table in tables.items()}
