@@ -23,6 +23,7 @@ LONGEST_LINK = 1.08
 # Time in which hair below the surface comes out again [s]. As a force (eq. 3.24) it would lose against a stiff spring.
 _EMERGENCE = 0.03
 _DEEPEST = 0.001  # that hair may be below the surface at the end of a step [m]
+_RESTING = 0.001  # hair this close to where it touches lies on the body [m]
 _THICKNESS = 0.5  # of the mean distance of particles: where the surface of a particle's hair touches the body
 _BEGINNING = 3.0  # of it: so much of a hair may lie closer to the skin than that
 # A pull toward the root that would lead into the body goes along it instead, unless it stands this steep on it.
@@ -52,11 +53,14 @@ def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) 
     return Touching(distance, np.where(np.isfinite(distance)[:, None], normals, 0.0), velocity, keep)
 
 
-def stop_at_body(velocities: Floats, touch: Touching, distance: Floats, friction: float, dt: float) -> Floats:
-    """Velocities [m/s] that do not lead into the body within dt [s], (n, 3).
+def stop_at_body(
+    velocities: Floats, touch: Touching, distance: Floats, friction: float, dt: float
+) -> tuple[Floats, Floats]:
+    """Velocities [m/s] that do not lead into the body within dt [s], and what of the change will last, (n, 3) each.
 
     distance: of the positions that the step starts from [m], (n,). Eq. 3.20 and 3.21 stop the normal part, 3.22 and 3.23
-    (Coulomb, coefficient ``friction``) slow down the tangential one, and what is below the surface comes out (3.24).
+    (Coulomb, coefficient ``friction``) slow down the tangential one, and what is below the surface comes out (3.24). Hair
+    that lies on the body is held by the first two again in the next step; hair that has just hit it is not.
     """
     relative = velocities - touch.velocity
     approach = np.einsum("ij,ij->i", relative, touch.normals)
@@ -68,7 +72,9 @@ def stop_at_body(velocities: Floats, touch: Touching, distance: Floats, friction
     sliding = relative - approach[:, None] * touch.normals
     speed = np.sqrt(np.einsum("ij,ij->i", sliding, sliding))
     braked = np.minimum(friction * impulse, speed) / np.maximum(speed, 1e-12)
-    return velocities + (impulse + emerging)[:, None] * touch.normals - braked[:, None] * sliding
+    held = impulse[:, None] * touch.normals - braked[:, None] * sliding
+    lies = distance <= touch.keep + _RESTING
+    return velocities + held + emerging[:, None] * touch.normals, np.where(lies[:, None], held, 0.0)
 
 
 def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Floats) -> Floats:

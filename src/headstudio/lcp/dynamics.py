@@ -106,18 +106,19 @@ class Dynamics:
 
     def hold(
         self, start: Floats, velocities: Floats, touch: Touching, distance: Floats, now: Circumstances, dt: float
-    ) -> Floats:
-        """Velocities [m/s] after hands, body and reach have had their say, (n, 3).
+    ) -> tuple[Floats, Floats]:
+        """Velocities [m/s] after hands, body and reach have had their say, and how the body goes on pushing, (n, 3) each.
 
-        A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s].
+        A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s]. The push is the
+        acceleration [m/s^2] of hair that lies on the body.
         """
         with self.timer.stage("contact"):
             if now.parting is not None:
                 velocities = now.parting.guided(start, velocities)
-            velocities = stop_at_body(velocities, touch, distance, now.settings.body_friction, dt)
+            velocities, held = stop_at_body(velocities, touch, distance, now.settings.body_friction, dt)
             velocities = stop_at_reach(self.model, start, velocities, touch, distance, dt)
-        velocities[self.model.fixed] = 0.0
-        return velocities
+        velocities[self.model.fixed] = held[self.model.fixed] = 0.0
+        return velocities, held / dt
 
     def put_back(self, positions: Floats, touch: Touching, distance: Floats, now: Circumstances) -> Floats:
         """Positions [m], (n, 3), at ``distance`` from their planes, with what is too deep or too far put back."""

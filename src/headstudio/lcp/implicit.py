@@ -32,6 +32,7 @@ from .springs import LinkState
 _FEWEST_PARTS, _MOST_PARTS = 2, 6
 _PART_LENGTH = 0.056  # [m]
 _PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
+_STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
 _TOLERANCE = 1e-2
 _MOST_ITERATIONS = 60
 
@@ -70,12 +71,15 @@ class ImplicitSolver:
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
         x_before, v_before = state.before or self._earlier(state, now, outer, rest_turn, dt)
+        # Hair that lies on the body goes on lying there. Without that push the solution would let it fall, and take its
+        # neighbours along before the body could stop it.
+        push = np.zeros_like(x) if state.before is None or state.push is None else state.push
         x_hat, v_hat = (4.0 * x - x_before) / 3.0, (4.0 * v - v_before) / 3.0
         g = 2.0 * dt / 3.0
 
         ahead = x_hat + g * v
         links = dynamics.links(ahead, settings)
-        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v, rest_turn, dt))
+        force = mass * (outer + push + dynamics.inner_acceleration(settings, frame, ahead, v, rest_turn, dt))
         force += dynamics.springs.forces(links, v, settings)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         with dynamics.timer.stage("solve"):
@@ -88,13 +92,17 @@ class ImplicitSolver:
         # The plane that a particle would run into tells how far from it the step starts.
         touch = dynamics.touch(x_hat + g * free, frame)
         distance = touch.distance - g * np.einsum("ij,ij->i", free - touch.velocity, touch.normals)
-        v_new = dynamics.hold(x_hat, free, touch, distance, now, g)
+        # The push is found anew: what is not needed any more is taken away again.
+        v_new, push = dynamics.hold(x_hat, free - g * push, touch, distance, now, g)
         distance = distance + g * np.einsum("ij,ij->i", v_new - touch.velocity, touch.normals)
         x_new = dynamics.put_back(x_hat + g * v_new, touch, distance, now)
-        # A held particle has a kink in its path. Where it was held it looks back on a straight one, or it would bounce.
-        kink = _unit(x_new - (x_hat + g * free))
-        before = (x + _along(kink, x_new - dt * v_new - x), v + _along(kink, v_new - v))
-        return HairState(x_new, v_new, state.directions, state.time + dt, before)
+        # A stopped particle has a kink in its path. It looks back on one straightened by that much, or it would bounce.
+        kink = x_new - (x_hat + g * free)
+        before = (
+            x + _along(kink, x_new - dt * v_new - x, _STRAIGHTENED),
+            v + _along(kink, v_new - v, _STRAIGHTENED / g),
+        )
+        return HairState(x_new, v_new, state.directions, state.time + dt, before, push)
 
     def _earlier(
         self, state: HairState, now: Circumstances, outer: Floats, rest_turn: Floats, dt: float
@@ -107,20 +115,16 @@ class ImplicitSolver:
         acceleration = outer - settings.air_friction * v
         acceleration += dynamics.inner_acceleration(settings, frame, x, v, rest_turn, dt)
         acceleration += springs / dynamics.model.mass[:, None]
-        held = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
+        held, _ = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
         acceleration = (held - v) / dt
         return x - dt * v + 0.5 * dt * dt * acceleration, v - dt * acceleration
 
 
-def _unit(a: Floats) -> Floats:
-    """Rows of ``a`` as unit vectors, zero where they are zero, (n, 3)."""
-    length = np.linalg.norm(a, axis=1, keepdims=True)
-    return np.divide(a, length, out=np.zeros_like(a), where=length > 0)
-
-
-def _along(unit: Floats, a: Floats) -> Floats:
-    """The part of ``a`` along ``unit``, row by row, (n, 3)."""
-    return np.einsum("ij,ij->i", unit, a)[:, None] * unit
+def _along(way: Floats, a: Floats, most: float) -> Floats:
+    """The part of ``a`` along ``way``, row by row, no longer than ``most`` times that way, (n, 3)."""
+    square = np.einsum("ij,ij->i", way, way)
+    share = np.einsum("ij,ij->i", way, a) / np.maximum(square, 1e-30)
+    return np.clip(share, -most, most)[:, None] * way
 
 
 def _inverse_of_symmetric(blocks: Floats) -> Floats:

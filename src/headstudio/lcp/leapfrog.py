@@ -51,7 +51,7 @@ class LeapfrogSolver:
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, v, settings) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
-        v = dynamics.hold(x, v, touch, touch.distance, now, dt)
+        v, _ = dynamics.hold(x, v, touch, touch.distance, now, dt)
         distance = touch.distance + dt * np.einsum("ij,ij->i", v - touch.velocity, touch.normals)
         x = dynamics.put_back(x + dt * v, touch, distance, now)
         return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)
