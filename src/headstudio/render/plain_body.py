@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from ..head.mesh import Floats, TriangleMesh
+from ..head.mesh import Floats
+from ..head.refine import ShadedMesh
 from .context import load_program, set_uniforms
 
 _NOTHING = bytes(24)  # a buffer cannot be empty
@@ -24,23 +25,23 @@ class PlainBodyPrograms:
 class PlainBody:
     """Meshes as one body; vertices [m], (n, 3), normals, (n, 3), and faces, (m, 3), of all of them."""
 
-    def __init__(self, context: moderngl.Context, programs: PlainBodyPrograms, meshes: Sequence[TriangleMesh]) -> None:
+    def __init__(self, context: moderngl.Context, programs: PlainBodyPrograms, surfaces: Sequence[ShadedMesh]) -> None:
         self._programs = programs
-        starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-        self.vertices = np.concatenate([np.zeros((0, 3)), *(mesh.vertices for mesh in meshes)])
-        self.normals = np.concatenate([np.zeros((0, 3)), *(mesh.vertex_normals for mesh in meshes)])
+        starts = np.cumsum([0, *(len(surface.normals) for surface in surfaces)])
+        self.vertices = np.concatenate([np.zeros((0, 3)), *(surface.mesh.vertices for surface in surfaces)])
+        self.normals = np.concatenate([np.zeros((0, 3)), *(surface.normals for surface in surfaces)])
         self.faces = np.concatenate(
-            [np.zeros((0, 3), np.int64), *(mesh.faces + start for mesh, start in zip(meshes, starts))]
+            [np.zeros((0, 3), np.int64), *(surface.mesh.faces + start for surface, start in zip(surfaces, starts))]
         )
-        surface = context.buffer(
+        corners = context.buffer(
             np.concatenate([self.vertices, self.normals], axis=1).astype("f4").tobytes() or _NOTHING
         )
         self._soft = context.buffer(reserve=max(12 * len(self.vertices), 4))
         indices = context.buffer(self.faces.astype("u4").tobytes() or _NOTHING)
         self._body = context.vertex_array(
-            programs.body, [(surface, "3f 3f", "position", "normal"), (self._soft, "3f", "soft")], indices
+            programs.body, [(corners, "3f 3f", "position", "normal"), (self._soft, "3f", "soft")], indices
         )
-        self._depth = context.vertex_array(programs.depth, [(surface, "3f 12x", "position")], indices)
+        self._depth = context.vertex_array(programs.depth, [(corners, "3f 12x", "position")], indices)
 
     def set_soft_light(self, irradiance: Floats) -> None:
         """The irradiance of the soft light at every vertex, linear RGB, (n, 3)."""

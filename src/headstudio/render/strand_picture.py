@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, TriangleMesh
+from ..head.refine import ShadedMesh, refine_near
 from ..wisp.strands import Strands
 from .plain_body import PlainBody, PlainBodyPrograms
 from .scene_block import SCENE_DTYPE
@@ -26,6 +27,8 @@ from .targets import light_targets, picture_targets
 from .view import View, bounding_sphere, parallel_view
 
 SHADOW_SIZE = 1024
+# Points of the hair around which the body gets triangles no larger than this [m].
+_CONTACTS, _CONTACT_SIZE = 60_000, 0.004
 FINENESS = 2
 """How many times finer than its pixels a final picture is drawn, along each side."""
 
@@ -66,7 +69,7 @@ def strand_picture(
     """The scene as linear light, top row first, (size, size, 3); None if ``progress`` stopped it."""
     programs = StrandPrograms(context)
     hair = StrandHair(context, programs, scene.strands, scene.strands.count)
-    body = PlainBody(context, PlainBodyPrograms(context), scene.meshes)
+    body = PlainBody(context, PlainBodyPrograms(context), _refined(scene))
     maps = light_targets(context, SHADOW_SIZE)
     everything = np.concatenate([body.vertices, scene.strands.points])
     around = bounding_sphere(everything)
@@ -117,6 +120,14 @@ def strand_picture(
         screens.draw("reduce", fine=0, supersampling=fineness)
     picture = np.frombuffer(targets.reduced_target.read(components=4, dtype="f2"), np.float16)
     return picture.reshape(size, size, 4)[::-1, :, :3].astype(np.float32)
+
+
+def _refined(scene: StrandScene) -> list[ShadedMesh]:
+    """The meshes with small triangles where hair lies on them: soft light is worked out at their vertices."""
+    points = scene.strands.points
+    near = points[:: max(len(points) // _CONTACTS, 1)].astype(float)
+    surfaces = [ShadedMesh(mesh, mesh.vertex_normals) for mesh in scene.meshes]
+    return [refine_near(surface, near, _CONTACT_SIZE) for surface in surfaces]
 
 
 def shown(picture: NDArray[np.float32]) -> NDArray[np.uint8]:
