@@ -50,7 +50,9 @@ def with_face(document: Document, preset: str | None, expressions: Sequence[str]
 def close_up(document: Document, head: Head) -> Document:
     """The document with its camera on the face, from the side it looks from."""
     marks = head.landmarks
-    x, y, z = 0.5 * (marks.hairline + marks.chin)
+    # Midway between face and ears: from the side, too, the head is in the middle of the picture.
+    front, ears = 0.5 * (marks.hairline + marks.chin), 0.5 * (marks.left_tragus + marks.right_tragus)
+    x, y, z = 0.5 * (front + ears)
     height = float(np.linalg.norm(marks.crown - marks.chin))
     distance = 0.5 * _ROOM * height / math.tan(0.5 * document.camera.field_of_view)
     return assign(
