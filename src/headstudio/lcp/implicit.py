@@ -31,7 +31,7 @@ from .springs import LinkState
 # more, for accuracy, as long as few particles leave the time for it.
 _FEWEST_PARTS, _MOST_PARTS = 2, 6
 _PART_LENGTH = 0.056  # [m]
-_PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
+_PARTICLES_IN_TIME = 5000  # particles times parts that keep up with real time
 _STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
 _TOLERANCE = 1e-2
 _MOST_ITERATIONS = 60
