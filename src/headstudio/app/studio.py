@@ -27,6 +27,8 @@ from .work import Work
 # What the program foresaw and says in its own words; anything else is named with its type.
 FORESEEN = (HeadError, ParameterError, ProjectError, RenderError, FilmError, OSError)
 
+DRAFT = 6000  # strands that are shown while something is dragged
+
 
 @dataclass(frozen=True, eq=False)
 class Grown:
@@ -169,19 +171,23 @@ class Studio:
         """Keep the hair as it is, and take back the change that asked for another."""
         self.builds.cancel()
         self.messages.say("Cancelled: the hair stays as it was.")
+        if self.grown is not None and _same_hair(_drafted(self.document), self.grown.document):
+            # What is shown is the draft of a drag; without the drag there is nothing to be built in full.
+            self.work.history.undo()
         self._return_to_grown()
 
     def _follow_document(self) -> None:
         """Ask for a build when the document has moved away from what was built.
 
         What takes long waits for the end of a drag. Strands and the depth of furrows follow it: one build after the other,
-        each to its end, since one that gave way to every next position of the mouse would never be seen.
+        each to its end, since one that gave way to every next position of the mouse would never be seen, and with fewer
+        strands, the rest of which come when the mouse is let go.
         """
-        document = self.document
+        document = _drafted(self.document) if self.work.history.in_gesture else self.document
         known = self.builds.wanted or (self.grown.document if self.grown else self._refused)
         if self.work.in_gesture and (self.building or known is None or groundwork(document) != groundwork(known)):
             return
-        if known is not None and _same_hair(document, known):
+        if known is not None and (_same_hair(document, known) or _same_hair(self.document, known)):
             return
         if self.grown is not None and _same_hair(document, self.grown.document):
             self.builds.cancel()
@@ -208,7 +214,7 @@ class Studio:
         if self.grown is not None:
             grown = self.grown.document
             self.work.hair_as, self.work.skin_as = grown.look.hair_as, grown.look.skin_as
-            if self.work.go_back(lambda document: _same_hair(document, grown)):
+            if self.work.go_back(lambda document: _same_hair(_drafted(document), _drafted(grown))):
                 return
         self._stand_in()
 
@@ -253,6 +259,12 @@ def explain(error: Exception) -> str:
 
 def _grow(builder: Builder, document: Document) -> Grown:
     return Grown(document, Animation(builder, document, document.look.strands_shown))
+
+
+def _drafted(document: Document) -> Document:
+    """The document with no more strands than a drag can wait for."""
+    look = document.look
+    return replace(document, look=replace(look, strands_shown=min(look.strands_shown, DRAFT)))
 
 
 def _same_hair(one: Document, other: Document) -> bool:
