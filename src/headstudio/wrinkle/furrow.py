@@ -42,6 +42,14 @@ class Furrow:
         live=True,
     )
     controls: Controls = ((0.0, 0.0), (0.003, 0.0), (0.006, 0.0), (0.009, 0.0))
+    taper: float = number(
+        0.2,
+        "Taper",
+        "",
+        0.02,
+        0.5,
+        "The part of its length that a furrow takes to come to full depth at either end; never less than 4 widths.",
+    )
 
     def __post_init__(self) -> None:
         chain = BezierChain(self.controls)  # type: ignore[arg-type]  # checks shape and numbers

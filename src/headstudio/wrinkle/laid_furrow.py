@@ -15,8 +15,8 @@ from .skin_layout import SkinLayout
 
 # Samples a curve, for lengths along it.
 _SAMPLES = 64
-# A furrow fades out toward its ends over this many widths, or this part of its length if that is more.
-_FADE_WIDTHS, _FADE_PART = 4.0, 0.2
+# A furrow fades out toward its ends over this many widths, or its taper if that is more.
+_FADE_WIDTHS = 4.0
 # Within this many widths of the curve the two walls blend into each other for shading.
 _FLOOR = 0.35
 _TINY = np.finfo(float).tiny
@@ -70,7 +70,7 @@ class LaidFurrow:
     @property
     def fade_length(self) -> float:
         """Over how much of its length the furrow comes to full depth at either end [m]."""
-        return fade_length(self.length, self.furrow.width)
+        return fade_length(self.length, self.furrow.width, self.furrow.taper)
 
     def line(self, spacing: float) -> Floats:
         """Points along the furrow on the skin [m], no farther apart than ``spacing`` [m], (k, 3)."""
@@ -125,9 +125,9 @@ class LaidFurrow:
         return np.stack([np.interp(t, self._t, flat[:, k]) for k in range(4)], axis=1).reshape(-1, 2, 2)
 
 
-def fade_length(length: float, width: float) -> float:
-    """Over how much of its length a furrow comes to full depth at either end [m]."""
-    return min(max(_FADE_WIDTHS * width, _FADE_PART * length), 0.5 * length)
+def fade_length(length: float, width: float, taper: float) -> float:
+    """Over how much of its length [m] a furrow comes to full depth at either end [m]."""
+    return min(max(_FADE_WIDTHS * width, taper * length), 0.5 * length)
 
 
 def _divided(vectors: Floats, lengths: Floats) -> Floats:

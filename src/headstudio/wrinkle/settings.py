@@ -41,6 +41,6 @@ class WrinkleSettings:
         widest = 0.02
         return tuple(replace(furrow, width=min(furrow.width * self.breadth, widest)) for furrow in chosen)
 
-    def lines(self) -> tuple[tuple[Controls, float], ...]:
-        """Where the furrows run and how wide they are: all that the skin has to be prepared for again."""
-        return tuple((furrow.controls, furrow.width) for furrow in self.furrow_set())
+    def lines(self) -> tuple[tuple[Controls, float, float], ...]:
+        """Where the furrows run, how wide they are, how they end: all that the skin has to be prepared for again."""
+        return tuple((furrow.controls, furrow.width, furrow.taper) for furrow in self.furrow_set())
