@@ -203,7 +203,15 @@ class Actions:
             Command("View", side.capitalize(), lambda side=side: viewport.look_from(side), keys)  # type: ignore[misc]
             for side, keys in VIEW_KEYS.items()
         ]
+        beside = self._app.beside
+
+        def toggle_beside() -> None:
+            assert beside is not None
+            beside.shown = not beside.shown
+
+        opener = [Command("View", beside.label, toggle_beside, "M", on=lambda: beside.shown)] if beside else []
         return [
+            *opener,
             Command("View", "Frame all", viewport.frame_all, "F"),
             Command("View", "Frame head", viewport.frame_head, "H"),
             _line("View"),

@@ -12,14 +12,14 @@ from . import shell, status, theme, toasts, view_bar
 from .actions import Actions
 from .commands import run_pressed
 from .dialogs import Dialogs
-from .editors import EDITORS, Editor
+from .editors import EDITORS, Editor, SideView
 from .parameter_rows import ParameterRows
 from .recorder import Recorder
 from .sidebar import Sidebar
 from .studio import Studio
 from .tools.tool import Tool
 from .transport import Transport
-from .ui import Ui
+from .ui import Rect, Ui
 from .viewport import Viewport
 from .window import Window
 
@@ -47,6 +47,12 @@ class Application:
             editor.label: editor.steps(self.rows, self.viewport, self._tools[editor.label])
             for editor in EDITORS
             if editor.steps is not None
+        }
+        self._beside = {
+            editor.label: editor.beside(self.viewport) for editor in EDITORS if editor.beside is not None
+        }
+        self._timelines = {
+            editor.label: editor.timeline(self.rows) for editor in EDITORS if editor.timeline is not None
         }
         self.actions = Actions(self)
         self.commands = self.actions.commands()
@@ -108,7 +114,7 @@ class Application:
         layout = shell.lay_out(self.ui, self.sizes, top)
         shell.region("Left", layout.left, self._draw_left, scrolls=True)
         shell.region("View", layout.view, lambda: self._draw_view(layout), plain=True)
-        shell.region("Foot", layout.foot, lambda: self.transport.draw(self.ui))
+        shell.region("Foot", layout.foot, lambda: self.transport.draw(self.ui, self._timelines.get(self.editor.label)))
         shell.region("Right", layout.right, self._draw_right, scrolls=True)
         shell.edges(self.ui, self.sizes, layout)
         shell.region("Status", layout.status, lambda: status.draw(self.ui, self.studio, layout.status), plain=True)
@@ -119,6 +125,11 @@ class Application:
     def tools(self) -> list[Tool]:
         """The tools of the open editor."""
         return self._tools[self.editor.label]
+
+    @property
+    def beside(self) -> SideView | None:
+        """The other view that the open editor has, shown or not."""
+        return self._beside.get(self.editor.label)
 
     def _draw_left(self) -> None:
         self._draw_tabs()
@@ -154,9 +165,13 @@ class Application:
                 return
 
     def _draw_view(self, layout: shell.Layout) -> None:
-        view = layout.view
-        self.viewport.draw(self.ui, (view.width, view.height), self.window.pixels_per_unit)
-        view_bar.draw(self.ui, self.viewport, view)
+        view, beside = layout.view, self.beside
+        split = beside is not None and beside.shown
+        width = round(0.5 * view.width) if split else view.width
+        self.viewport.draw(self.ui, (width, view.height), self.window.pixels_per_unit)
+        if beside is not None and split:
+            beside.draw(self.ui, Rect(view.x + width, view.y, view.width - width, view.height))
+        view_bar.draw(self.ui, self.viewport, Rect(view.x, view.y, width, view.height), beside)
         status.progress(self.ui, self.studio, view)
         toasts.draw(self.ui, self.studio.messages, view)
 

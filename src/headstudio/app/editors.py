@@ -19,15 +19,37 @@ from .tools.select_wisps import Lasso, PaintSelection
 from .tools.shake_head import ShakeHead
 from .tools.tool import Tool
 from .tools.whorl import PlaceWhorl
-from .ui import Ui
+from .ui import Rect, Ui
 from .viewport import Viewport
 from .wisps.steps import WispSteps
+from .wrinkles.direction_tool import DirectionTool
 from .wrinkles.furrow_tool import FurrowTool
+from .wrinkles.paint_tool import STRENGTH, TISSUE, skin_painter
 from .wrinkles.steps import WrinkleSteps
+from .wrinkles.texture_view import TextureView
+from .wrinkles.timeline import Timeline
 
 
 class Steps(Protocol):
     """What an editor shows on the right side above its panels."""
+
+    def draw(self, ui: Ui) -> None:
+        """All of it, in the current ImGui window."""
+
+
+class SideView(Protocol):
+    """A view beside that of the head, which the user opens and closes."""
+
+    label: str
+    help: str
+    shown: bool
+
+    def draw(self, ui: Ui, area: Rect) -> None:
+        """All of it, in the current ImGui window."""
+
+
+class TimeStrip(Protocol):
+    """What happens when, above the plots of the foot."""
 
     def draw(self, ui: Ui) -> None:
         """All of it, in the current ImGui window."""
@@ -39,7 +61,8 @@ class Editor:
 
     hair_as: what hair is made of while the tab is open, one of HAIR_AS; None leaves it as it was. skin_as: what the skin
     does, one of SKIN_AS, or None. shown: the ticks on the left side, beside the picture that they change. steps: makes what
-    stands above the panels.
+    stands above the panels. beside: makes another view of the same thing, beside the head.
+    timeline: makes what stands above the plots. views: fields of the look that are shown below the ticks.
     """
 
     label: str
@@ -49,6 +72,9 @@ class Editor:
     shown: tuple[str, ...]
     steps: Callable[[ParameterRows, Viewport, Sequence[Tool]], Steps] | None = None
     skin_as: str | None = None
+    beside: Callable[[Viewport], SideView] | None = None
+    timeline: Callable[[ParameterRows], TimeStrip] | None = None
+    views: tuple[str, ...] = ()
 
     def is_about(self, hair_as: str, skin_as: str) -> bool:
         """Whether what is shown is what this tab works on."""
@@ -107,7 +133,7 @@ WISPS = Editor(
 WRINKLES = Editor(
     "Wrinkles",
     None,
-    tools=(FurrowTool, ShakeHead),
+    tools=(FurrowTool, DirectionTool, skin_painter(TISSUE), skin_painter(STRENGTH), ShakeHead),
     panels=(
         Panel("Face", "face", in_steps=True),
         Panel("Wrinkles", "wrinkle", in_steps=True),
@@ -120,6 +146,9 @@ WRINKLES = Editor(
     shown=TICKS[:3],
     steps=WrinkleSteps,
     skin_as="living",
+    beside=TextureView,
+    timeline=Timeline,
+    views=("skin_shows", "split"),
 )
 
 EDITORS = (HAIR, WISPS, WRINKLES)

@@ -90,6 +90,7 @@ class Sidebar:
                 if k % COLUMNS:
                     imgui.same_line(imgui.get_style().window_padding.x + width / COLUMNS)
                 self.rows.tick(ui, f"look.{name}")
+            self.rows.rows(ui, "look", editor.views)
             if editor.hair_as == "particles":
                 imgui.separator()
                 self.rows.tick(ui, "lcp.interactions")

@@ -8,11 +8,13 @@ from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
 from . import theme
+from .editors import TimeStrip
 from .plots import Plots
 from .recorder import Recorder
 from .studio import Studio
 from .ui import Ui
 
+LEAST_PLOTS = 84.0  # plots lower than this could not be read
 SPEEDS = {"1/8": 0.125, "1/4": 0.25, "1/2": 0.5, "1": 1.0}
 
 
@@ -25,13 +27,15 @@ class Transport:
         self._ask_record = ask_record
         self.plots = Plots()
 
-    def draw(self, ui: Ui) -> None:
-        """The row of buttons, and the plots below in what height is left."""
+    def draw(self, ui: Ui, timeline: TimeStrip | None = None) -> None:
+        """The row of buttons, the ``timeline``, and the plots below in what height is left."""
         with ui.within("Transport"):
             self._draw_buttons(ui)
             self._draw_clock(ui)
+        if timeline is not None:
+            timeline.draw(ui)
         left = imgui.get_content_region_avail().y
-        if left > ui.px(60):
+        if left > ui.px(LEAST_PLOTS):
             self.plots.draw(ui, left)
 
     def _draw_buttons(self, ui: Ui) -> None:

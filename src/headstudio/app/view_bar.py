@@ -6,20 +6,22 @@ from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
 from . import theme
+from .editors import SideView
 from .ui import Rect, Ui
 from .viewport import Viewport
 
 SIDES = {"Front": "front", "Left": "left", "Right": "right", "Back": "back", "Top": "top"}
 
 
-def draw(ui: Ui, viewport: Viewport, area: Rect) -> None:
-    """Draw them in the upper right corner of ``area``."""
+def draw(ui: Ui, viewport: Viewport, area: Rect, beside: SideView | None = None) -> None:
+    """Draw them in the upper right corner of ``area``; in the left one what opens and closes the view ``beside``."""
+    opener = _draw_opener(ui, beside, area) if beside is not None else 0.0
     style = imgui.get_style()
     labels = [*SIDES, icons.ICON_FA_EXPAND]
     padding = 2 * style.frame_padding.x
     gap = ui.px(2)
     width = sum(imgui.calc_text_size(label).x + padding + gap for label in labels)
-    if width > area.width:
+    if width + opener > area.width:
         return
     imgui.set_cursor_screen_pos((area.x + area.width - width - ui.px(8), area.y + ui.px(8)))
     imgui.push_style_color(imgui.Col_.button.value, theme.rgba(theme.GROUND, 0.35))
@@ -31,3 +33,14 @@ def draw(ui: Ui, viewport: Viewport, area: Rect) -> None:
         if ui.button("Frame", "See all of head and hair (F).", icon=icons.ICON_FA_EXPAND, text=""):
             viewport.frame_all()
     imgui.pop_style_color()
+
+
+def _draw_opener(ui: Ui, beside: SideView, area: Rect) -> float:
+    """Returns how much of the width it takes."""
+    imgui.set_cursor_screen_pos((area.x + ui.px(8), area.y + ui.px(8)))
+    imgui.push_style_color(imgui.Col_.button.value, theme.rgba(theme.GROUND, 0.35))
+    with ui.within("Views"):
+        if ui.button(beside.label, beside.help, icon=icons.ICON_FA_TABLE_COLUMNS, on=beside.shown):
+            beside.shown = not beside.shown
+    imgui.pop_style_color()
+    return float(imgui.get_item_rect_max().x) - area.x + ui.px(8)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from ...head.mesh import Floats
+from ...head.scalp_settings import GrayImage
 from ..studio import Studio
 from ..tools.tool import Canvas, Pointer, Tool
-from .face_places import places_of
+from .face_places import FacePlaces, places_of
 from .skin_canvas import HeadCanvas, SkinCanvas, Touch
 
 
@@ -27,6 +28,10 @@ class SkinTool(Tool):
 
     def draw_on(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, touch: Touch | None) -> None:
         """Draw what can be touched; ``touch``: the mouse, if it is over this canvas."""
+
+    def painted_image(self, faces: FacePlaces) -> GrayImage | None:
+        """The map that the tool paints, for texture space to show; None for a tool that paints none."""
+        return None
 
     def press(self, pointer: Pointer) -> bool:
         """On the head; without a living face every press is for the camera."""
