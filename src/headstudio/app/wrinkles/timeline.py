@@ -6,9 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from imgui_bundle import ImVec2Like
+from imgui_bundle import ImVec2Like, imgui
 from imgui_bundle import icons_fontawesome_6 as icons
-from imgui_bundle import imgui
 
 from ...wrinkle.performance import Performance, moved_key, without_key
 from .. import theme
