@@ -17,12 +17,20 @@ from headstudio.scene import builder
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
 
+# The pages that say where each equation of a paper is.
+EQUATIONS = [ROOT / "docs" / name for name in ("papers.md", "wisps.md", "wrinkles.md")]
+
 # What makes a command of the guide small enough for a test; a later option wins over the guide's own.
+FEW_STRANDS = ["--strands", "200", "--set", "wisp.wisps=20"]
 SMALL = {
     "demo": ["--quick"],
     "simulate": ["--seconds", "0.1", "--size", "32", "--particles", "150"],
     "render": ["--seconds", "0", "--size", "32", "--particles", "150"],
-    "bench": ["--counts", "100", "--frames", "1"],
+    "bench": ["--head", "mannequin", "--counts", "100", "--texels", "128", "--frames", "1", *FEW_STRANDS],
+    "style": ["--size", "32", *FEW_STRANDS],
+    "export": FEW_STRANDS,
+    "wrinkle": ["--head", "mannequin", "--size", "32", "--set", "fine.texture_size=128"],
+    "bake": ["--head", "mannequin", "--size", "128"],
 }
 
 
@@ -31,6 +39,11 @@ read_once = functools.cache(load_head)
 
 def blocks(page, language):
     return re.findall(rf"^```{language}\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+
+
+def files(page):
+    """The files that a page shows: its json blocks whose first line names one, as (name, content)."""
+    return re.findall(r"^```json (\S+)\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
 def commands(page):
@@ -47,6 +60,8 @@ def test_the_parameter_page_is_current():
 def test_the_commands_of_a_page_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(builder, "load_head", read_once)
+    for name, content in files(page):
+        Path(name).write_text(content)
     if "demo" in {words[1] for words in commands(page)}:
         from headstudio.commands import demo
 
@@ -64,8 +79,9 @@ def test_the_python_of_a_page_runs(page, tmp_path, monkeypatch):
     assert blocks(page, "python")
 
 
-def test_every_function_named_beside_an_equation_exists():
-    names = re.findall(r"`((?:lcp|head|render|scene)\.[\w.]+)`", (ROOT / "docs/papers.md").read_text())
+@pytest.mark.parametrize("page", EQUATIONS, ids=lambda page: page.name)
+def test_every_function_named_beside_an_equation_exists(page):
+    names = re.findall(r"`((?:lcp|head|render|scene|wisp|wrinkle|io)\.[\w.]+)`", page.read_text())
     assert len(names) > 20
     for name in names:
         resolve(f"headstudio.{name}")
