@@ -15,6 +15,7 @@ from ..scene.recent import recent_projects
 from .commands import Command
 from .file_browser import FileWish
 from .tools.tool import Tool
+from .wrinkles.face_files import FaceFiles
 
 if TYPE_CHECKING:
     from .application import Application
@@ -30,6 +31,7 @@ class Actions:
     def __init__(self, app: Application) -> None:
         self._app = app
         self._studio = app.studio
+        self._face_files = FaceFiles(app.studio, app.dialogs)
 
     def commands(self) -> list[Command]:
         """Every command in the order of the menus."""
@@ -141,6 +143,8 @@ class Actions:
             _line("File"),
             Command("File", "Import a head...", self.import_head, "Ctrl+I"),
             Command("File", "Export picture...", self.export_picture, "Ctrl+E", self._has_picture),
+            _line("File"),
+            *self._face_files.commands(),
             _line("File"),
             Command("File", "Quit", self.quit, "Ctrl+Q"),
         ]

@@ -18,6 +18,7 @@ from ..scene.project import ProjectError
 from ..scene.stage import Stage
 from .brush import Brush
 from .builds import Builds
+from .chores import Chores
 from .messages import Messages
 from .performance import Performance
 from .playback import Playback
@@ -47,6 +48,7 @@ class Studio:
         self.playback = Playback()
         self.performance = Performance(self.document.motion)
         self.brush = Brush()
+        self.chores = Chores(explain)
         self.chosen: Chosen | None = None
         self.grown: Grown | None = None
         self.stage: Stage | None = None
@@ -128,6 +130,7 @@ class Studio:
         ``fixed``: the length of a frame [s] while a film is recorded.
         """
         self.messages.pass_time(wall)
+        self.chores.report(self.messages)
         self._follow_document()
         self._take_build()
         if self.grown is None:

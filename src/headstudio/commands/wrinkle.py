@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..head.head import Head
-from ..io.meshes import MESH_SUFFIXES, write_head
+from ..io.faces import write_stage_mesh
+from ..io.meshes import MESH_SUFFIXES
 from ..params import ParameterError, assign
 from ..scene.document import Document
-from ..scene.stage import Stage
 from ..wrinkle.expressions import FACES
 from ..wrinkle.face_settings import SLIDERS
 from .documents import animate
@@ -75,15 +75,5 @@ def wrinkle(document: Document, out: Path, size: Size, framed: bool) -> None:
         save_picture(Photographer(size).still(stage, document, size), out)
     else:
         with working(f"writing {out.name}"):
-            write_mesh(stage, out)
+            write_stage_mesh(stage, out)
     say(str(out))
-
-
-def write_mesh(stage: Stage, out: Path) -> None:
-    """The skin and parts on stage as a mesh file [m]. Raises OSError."""
-    skin = stage.skin
-    if skin is None:
-        write_head(stage.head.skin, stage.head.skin.vertex_normals, stage.head.parts, out)
-    else:
-        mesh = skin.surface.mesh(skin.skin.positions)
-        write_head(mesh, skin.skin.normals, skin.parts, out)

@@ -35,11 +35,15 @@ class WrinkleSettings:
     self_contact: bool = switch(True, "Self-contact", "Bulges on both sides of a fold stop where they meet.", live=True)
     furrows: tuple[Furrow, ...] = ()
 
+    @property
+    def chosen(self) -> tuple[Furrow, ...]:
+        """The artist's own furrows, or else the default set at ``age``, on the face chart."""
+        return self.furrows or default_furrows(self.age)
+
     def furrow_set(self) -> tuple[Furrow, ...]:
         """The furrows on the face chart, with the settings' breadth."""
-        chosen = self.furrows or default_furrows(self.age)
         widest = 0.02
-        return tuple(replace(furrow, width=min(furrow.width * self.breadth, widest)) for furrow in chosen)
+        return tuple(replace(furrow, width=min(furrow.width * self.breadth, widest)) for furrow in self.chosen)
 
     def lines(self) -> tuple[tuple[Controls, float, float], ...]:
         """Where the furrows run, how wide they are, how they end: all that the skin has to be prepared for again."""

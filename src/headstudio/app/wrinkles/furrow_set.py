@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...wrinkle.default_furrows import default_furrows
 from ...wrinkle.furrow import Furrow
 from ...wrinkle.furrow_editing import mirrored
 from ..studio import Studio
@@ -24,8 +23,7 @@ class FurrowSet:
     @property
     def furrows(self) -> tuple[Furrow, ...]:
         """Those of the document, or the default set at the age of the skin."""
-        wrinkle = self.studio.document.wrinkle
-        return wrinkle.furrows or default_furrows(wrinkle.age)
+        return self.studio.document.wrinkle.chosen
 
     @property
     def chosen(self) -> int | None:
