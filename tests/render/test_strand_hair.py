@@ -74,7 +74,7 @@ class TestStrips:
         wanted = {(k, k + 1) for start, end in pairwise(first) for k in range(start, end - 1)}
         assert drawn == wanted
         assert pieces.shape == (4, 2 * PIECE + 3)  # 1, 6 and 2 segments, in some order
-        assert all(row[0] // 2 <= point <= row[-2] // 2 for row, point in zip(pieces, amid))
+        assert all(row[0] // 2 <= point <= row[-2] // 2 for row, point in zip(pieces, amid, strict=True))
         assert (pieces[:, -1] == 0xFFFFFFFF).all()
 
     def test_fewer_strands_are_a_sample_of_all(self) -> None:

@@ -86,7 +86,10 @@ def colour_slope(radial_roughness: float) -> float:
 
 
 def longitudinal(sin_in: Floats, sin_mirrored: Floats, variance: float) -> Floats:
-    """M: spread along the hair about the mirrored inclination of the eye; its integral times cos(theta_in) over theta_in is 1 (d'Eon et al. 2011, eq. 7)."""
+    """M: spread along the hair about the mirrored inclination of the eye (d'Eon et al. 2011, eq. 7).
+
+    Its integral times cos(theta_in) over theta_in is 1.
+    """
     cosines = np.sqrt((1 - sin_in**2) * (1 - sin_mirrored**2))
     sines = sin_in * sin_mirrored
     # I0 scaled by exp(-x), so that narrow lobes do not overflow: 1 / (2 v sinh(1/v)) = exp(-1/v) / (v (1 - exp(-2/v))).
