@@ -53,6 +53,17 @@ class Photographer:
         self.renderer.render(stage, document.look, document.camera, size, supersampling=2, skin=document.skin)
         return self.renderer.read_pixels()
 
+    def final(self, stage: Stage, document: Document, size: Size) -> Pixels:
+        """The stage in final quality, all strands and a bar that fills up: (height, width, 3)."""
+        with counting("drawing", 1) as bar:
+
+            def progress(done: int, of: int) -> bool:
+                bar.update(bar.task_ids[0], completed=done, total=of)
+                return True
+
+            self.renderer.render_final(stage, document.look, document.camera, size, progress, skin=document.skin)
+        return self.renderer.read_pixels()
+
 
 def parse_size(words: str) -> Size:
     """``512`` or ``640x480`` as width and height. Raises ParameterError."""

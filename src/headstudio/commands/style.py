@@ -33,7 +33,7 @@ def style(document: Document, out: Path, size: Size, points: int | None) -> None
         save_project(document, out)
     elif suffix == ".png":
         photographer = Photographer(size)
-        save_picture(photographer.still(animate(document).stage(), document, size), out)
+        save_picture(photographer.final(animate(document).stage(), document, size), out)
     elif suffix in WRITABLE:
         write(styled(document), out, points)
     else:

@@ -72,7 +72,7 @@ def wrinkle(document: Document, out: Path, size: Size, framed: bool) -> None:
     stage = animate(document).stage()
     if suffix == ".png":
         document = close_up(document, stage.head) if framed else document
-        save_picture(Photographer(size).still(stage, document, size), out)
+        save_picture(Photographer(size).final(stage, document, size), out)
     else:
         with working(f"writing {out.name}"):
             write_stage_mesh(stage, out)
