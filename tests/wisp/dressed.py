@@ -40,6 +40,11 @@ def hair(scalp: Scalp, wisps: int = 300, length: float = 0.3, segment: float = 0
 
 
 def styled(outlines: Outlines, name: str = "mannequin", **settings: object):
-    """``outlines`` deformed under StylingSettings(**settings): outlines and report."""
+    """``outlines`` deformed under gravity and ``settings`` alone: outlines and report."""
     _, scalp, surroundings = body(name)
-    return deform(outlines, surroundings, StylingSettings(**settings), scalp)
+    return deform(outlines, surroundings, plain_styling(**settings), scalp)
+
+
+def plain_styling(**settings: object) -> StylingSettings:
+    """``settings`` over gravity alone: hair that nobody has parted or taken off the face."""
+    return StylingSettings(**{"parted": 0.0, "parting": 0.0, "off_face": 0.0, **settings})

@@ -5,14 +5,14 @@ from headstudio.wisp.field import PRESETS, force_field
 from headstudio.wisp.strokes import Stroke
 from headstudio.wisp.styling_settings import StylingSettings
 
-from .dressed import body
+from .dressed import body, plain_styling
 
 PLACES = np.random.default_rng(2).uniform(-2, 2, (400, 3))
 
 
 def field_at(places, **settings) -> np.ndarray:
     _, _, surroundings = body()
-    return force_field(StylingSettings(**settings), surroundings).at(surroundings.proportions.place(np.asarray(places)))
+    return force_field(plain_styling(**settings), surroundings).at(surroundings.proportions.place(np.asarray(places)))
 
 
 def test_every_preset_is_a_parameter_and_no_longer_than_its_weight():
@@ -42,6 +42,7 @@ def test_the_field_is_the_weighted_sum_of_its_presets():
         ({"blown": 1.0, "blown_heading": np.pi / 2}, (0.0, 0.0, 0.0), (1, 0, 0)),
         ({"parted": 1.0, "parting": 0.3}, (0.1, 1.0, 0.2), (-1, 0, 0)),
         ({"off_face": 1.0}, (0.4, -0.3, 1.0), (1, 0, 0)),
+        ({"off_face": 1.0, "parting": 0.5}, (0.3, -0.1, 1.0), (-1, 0, 0)),
         ({"inward": 1.0}, (1.2, -1.0, 0.0), (-1, 0, 0)),
     ],
 )

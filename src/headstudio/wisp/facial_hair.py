@@ -43,7 +43,7 @@ def facial_patches(settings: FacialHairSettings) -> tuple[FacialPatch, ...]:
     """The patches of hair that the style consists of."""
     parts = _STYLES[settings.style]
     length = _STUBBLE if settings.style == "stubble" else settings.length
-    styling = StylingSettings(bending_stiffness=settings.stiffness)
+    styling = StylingSettings(bending_stiffness=settings.stiffness, parted=0.0, parting=0.0, off_face=0.0)
     patches = []
     for region, density, lengths in parts:
         share = 1.0 if len(parts) == 1 else _MOUSTACHE_SHARE if region == "moustache" else 1 - _MOUSTACHE_SHARE
@@ -64,6 +64,7 @@ def facial_patches(settings: FacialHairSettings) -> tuple[FacialPatch, ...]:
             shaft_tip=0.5 * settings.shaft,
             seed=settings.seed,
             protrusion=settings.protrusion,
+            parting="none",
             painted_density=_map(density),
             painted_lengths=_map(lengths),
             painted_protrusion=_map("even"),

@@ -105,7 +105,8 @@ def _parted(places: Floats, styling: StylingSettings) -> Floats:
 
 
 def _off_face(places: Floats, styling: StylingSettings) -> Floats:
-    side = np.tanh(places[:, 0] / 0.1)[:, None]
+    # Hair goes to the side of the parting that it comes from: across the forehead, not against itself.
+    side = np.tanh((places[:, 0] - styling.parting) / 0.1)[:, None]
     before_face = (1.0 - _fade(places[:, 2], 0.1, 0.7)) * _fade(np.abs(places[:, 0]), 0.95, 1.3)
     below_hairline = _fade(places[:, 1], 0.6, 1.1)
     return before_face * below_hairline * (side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))

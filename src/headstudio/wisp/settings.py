@@ -65,7 +65,7 @@ class WispSettings:
     points: int = integer(32, "Points", 2, 256, "How many points a finished strand has.", log=True)
     segments: int = integer(24, "Segments", 2, 100, "How many segments the outline of the longest hair has.")
     length: float = number(
-        0.25, "Length", "m", 0.001, 1.5, "The longest hair; the gray length map scales it.", shown="cm", log=True
+        0.27, "Length", "m", 0.001, 1.5, "The longest hair; the gray length map scales it.", shown="cm", log=True
     )
     density_map: str = choice("even", "Density map", DENSITY_MAPS, "Where on the scalp hair grows densely.")
     length_map: str = choice("layered", "Length map", LENGTH_MAPS, "How hair length varies over the scalp.")
@@ -75,7 +75,7 @@ class WispSettings:
     protrusion: float = number(
         1.0, "Protrusion", "", 0.0, 3.0, "How far hair stands up, as a multiple of the protrusion map."
     )
-    parting: str = choice("none", "Parting", PARTINGS, "Where hair is parted: left and right are the person's own.")
+    parting: str = choice("left", "Parting", PARTINGS, "Where hair is parted: left and right are the person's own.")
     parting_reach: float = number(
         0.07, "Parting reach", "m", 0.005, 0.2, "How far from the parting hair still leans away from it.", shown="cm"
     )

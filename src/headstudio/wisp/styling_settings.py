@@ -59,16 +59,16 @@ class StylingSettings:
         "Where the wind blows to, about the vertical: 0 along the face, 90 degrees to the person's left.",
         shown="deg",
     )
-    parted: float = _weight(0.0, "Parted", "Weight of the push to both sides of the parting, on top of the head.")
+    parted: float = _weight(0.7, "Parted", "Weight of the push to both sides of the parting, on top of the head.")
     parting: float = number(
-        0.0,
+        0.45,
         "Parting",
         "",
         -1.0,
         1.0,
         "Where hair parts, in half breadths of the head: 0 in the middle, positive to the person's left.",
     )
-    off_face: float = _weight(0.0, "Off the face", "Weight of the push from the face to the sides.")
+    off_face: float = _weight(1.6, "Off the face", "Weight of the push from the face to the sides.")
     inward: float = _weight(0.0, "Inward", "Weight of the pull toward the neck, which turns the tips of a bob in.")
     stroke_reach: float = number(
         0.06, "Stroke reach", "m", 0.01, 0.3, "How far around a drawn stroke hair still follows it.", shown="cm"
