@@ -29,7 +29,9 @@ uniform int model;            // 0 simple, 1 Lafortune
 uniform vec3 tint;            // the skin's own colour over that of measured skin
 uniform vec3 measured_diffuse;
 uniform bool shows_value;
+uniform bool kept_apart;      // light that has entered the skin, to be spread in the picture
 layout(location = 0) out vec4 colour;
+layout(location = 1) out vec4 entered;
 
 // Light from below the surface hardly sees fine bumps, red light least.
 const vec3 softened = vec3(0.62, 0.36, 0.22);
@@ -63,7 +65,7 @@ void main() {
     // The more the light grazes, the farther the surface itself rises into it within the soft edge of the shadow.
     float rise = min(sqrt(max(1.0 - smooth_n_l * smooth_n_l, 0.0)) / max(smooth_n_l, 0.1), 3.0);
     float lit = light_at(place + smooth_n * 0.0015, 0.0015 + 0.0035 * rise, 0.004);
-    vec3 soft_lit = mix(vec3(lit), vec3(lit * (1.3 - 0.3 * lit), lit, lit), min(scattering, 1.0));
+    vec3 soft_lit = mix(vec3(lit), vec3(lit * (1.3 - 0.3 * lit), lit, lit), kept_apart ? 0.0 : min(scattering, 1.0));
 
     // Light that has been under the skin: of the smooth surface, bent as it is, plus what bumps add and take.
     float bend = sqrt(clamp(abs(surface.w) * scattering / steepest, 0.0, 1.0));
@@ -71,8 +73,9 @@ void main() {
     vec3 around = textureLod(scattered, (vec2(0.5 + 0.5 * smooth_n_l, bend) * (table - 1.0) + 0.5) / table, 0.0).rgb;
     vec3 creep = wrap * min(scattering, 1.0);
     vec3 wrapped = clamp((vec3(smooth_n_l) + creep) / (1.0 + creep), 0.0, 1.0);
-    around = max(around, wrapped * wrapped);
-    vec3 bumped = (max(n_l, 0.0) - max(smooth_n_l, 0.0)) * (1.0 - softened * min(scattering, 1.0));
+    around = kept_apart ? vec3(max(smooth_n_l, 0.0)) : max(around, wrapped * wrapped);
+    vec3 softer = kept_apart ? vec3(0.0) : softened * min(scattering, 1.0);
+    vec3 bumped = (max(n_l, 0.0) - max(smooth_n_l, 0.0)) * (1.0 - softer);
     vec3 diffuse = max(around + bumped, 0.0) * soft_lit * mix(1.0, open, 0.35);
 
     // Light bounces between nearby skin: cavities go red-brown before they go black.
@@ -82,6 +85,7 @@ void main() {
 
     if (shows_value) {
         vec3 shown = textureLod(scale, vec2((bumps.value * 255.0 + 0.5) / 256.0, 0.5), 0.0).rgb;
+        entered = vec4(0.0);
         colour = vec4(shown * (0.35 + 0.65 * (radiance.rgb * diffuse + soft) / (radiance.rgb + sky.rgb)), 1.0);
         return;
     }
@@ -106,5 +110,9 @@ void main() {
     float rim = 0.024 + 0.26 * fifth(1.0 - max(dot(soft_n, to_eye), 0.0));
     vec3 sheen = mix(ground.rgb, sky.rgb, clamp(reflect(-to_eye, n).y * 0.5 + 0.5, 0.0, 1.0)) * rim * open * open;
     mirrored += sheen * min(glossy, 1.0);
-    colour = vec4(base * (radiance.rgb * diffuse + soft) + mirrored, 1.0);
+    vec3 sent = base * (radiance.rgb * diffuse + soft);
+    // Hair scatters nothing under itself.
+    float stays = kept_apart ? hair : 1.0;
+    colour = vec4(sent * stays + mirrored, 1.0);
+    entered = vec4(sent * (1.0 - stays), 1.0 - stays);
 }

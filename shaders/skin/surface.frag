@@ -17,7 +17,8 @@ void main() {
     float brow = smoothstep(0.2, 0.8, v_paint.z * (0.9 + 0.4 * stroke)) * 0.9;
     vec3 n = normalize(v_normal.xyz);
     normal = vec4(gl_FrontFacing ? n : -n, v_normal.w);
-    paint = vec4(v_paint.xy, max(brow, smoothstep(0.0, 1.0, v_map.w)), v_paint.w);
+    // The inside of the skin, seen through an open mouth, is dark.
+    paint = vec4(gl_FrontFacing ? v_paint.x : max(v_paint.x, 0.96), v_paint.y, max(brow, smoothstep(0.0, 1.0, v_map.w)), v_paint.w);
     distance_ = 1.0 / gl_FragCoord.w;
     place_in_map = v_map.xy;
     // Fine wrinkles fade out towards the border of their map, so that it does not show.

@@ -113,6 +113,7 @@ def test_every_skin_parameter_is_seen(camera_man: Renderer, smiling: LivingSkin)
         {"gloss": 0.0},
         {"roughness": 0.7},
         {"scattering": 0.0},
+        {"scattering_by": "screen"},
         {"relief": 3.0},
         {"creases": 0.0},
     ):
@@ -124,6 +125,22 @@ def test_every_skin_parameter_is_seen(camera_man: Renderer, smiling: LivingSkin)
     )
     assert browner[0] - browner[1] > yellower[0] - yellower[1] + 1
     np.testing.assert_array_equal(shot(camera_man, smiling), before)
+
+
+def test_light_spread_in_the_picture_softens_red_and_keeps_its_sum(camera_man: Renderer, smiling: LivingSkin) -> None:
+    """Neighbouring pixels of a close look differ less, in red the least; as a whole the skin is as bright as before."""
+    close = dataclasses.replace(CLOSE, distance=0.08)
+    matt = SkinSettings(gloss=0.0, scattering_by="screen", flush=0.0)
+    sharp, soft = (
+        shot(camera_man, smiling, dataclasses.replace(matt, scattering=amount), camera=close)[20:100, 20:100].astype(
+            float
+        )
+        for amount in (0.0, 1.0)
+    )
+    left = np.abs(np.diff(soft, axis=0)).mean(axis=(0, 1)) / np.abs(np.diff(sharp, axis=0)).mean(axis=(0, 1))
+    assert left[0] < 0.8
+    assert left[0] < left[1] < 1.02
+    np.testing.assert_allclose(soft.mean(axis=(0, 1)), sharp.mean(axis=(0, 1)), atol=3.0)
 
 
 def test_a_tone_map_is_a_choice(camera_man: Renderer, smiling: LivingSkin) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from headstudio.head.mesh import Floats
 from headstudio.render import lafortune
-from headstudio.render.scattering import STEEPEST, VARIANCES, WEIGHTS, lit_around, scattering_table
+from headstudio.render.scattering import STEEPEST, VARIANCES, WEIGHTS, lit_around, scattering_table, scattering_taps
 from headstudio.render.skin_body import lafortune_uniforms
 from headstudio.render.skin_colour import HAEMOGLOBIN, MELANIN, skin_colour
 from headstudio.resources import shader
@@ -117,3 +117,13 @@ def test_monk_tones_go_from_light_to_dark() -> None:
     assert (np.diff(brightness[3:]) < 0).all()
     assert brightness[0] > 0.8
     assert brightness[-1] < 0.03
+
+
+def test_taps_share_out_all_the_light_and_red_goes_the_farthest() -> None:
+    distances, shares = scattering_taps()
+    np.testing.assert_allclose(shares[0] + 2 * shares[1:].sum(axis=0), 1.0, atol=1e-9)
+    assert distances[0] == 0
+    assert (np.diff(distances) > 0).all()
+    variance = 2 * (distances[:, None] ** 2 * shares).sum(axis=0)
+    assert variance[0] == pytest.approx(VARIANCES @ WEIGHTS[:, 0], rel=0.35)
+    assert variance[0] > variance[1] > variance[2]

@@ -1,13 +1,15 @@
 """Light that leaves the skin beside where it entered, by the sum of six Gaussians of d'Eon and Luebke 2007.
 
 On a bent surface, light creeps past the edge of the shadow, red the farthest. Worked out beforehand for every curvature
-and angle (Penner 2011) this costs one look into a table. On a cylinder no integral is needed: the light that falls on it
+and angle (Penner 2011) this costs one look into a table. The other way spreads the light in the picture, along its rows
+and then along its columns. On a cylinder no integral is needed: the light that falls on it
 is a clamped cosine around it, and a Gaussian of variance v on the arc shrinks its k-th harmonic by exp(-k^2 v / 2 r^2).
 """
 
 from __future__ import annotations
 
 import numpy as np
+from scipy.special import ndtr
 
 from ..head.mesh import Floats
 
@@ -57,3 +59,17 @@ def scattering_table(angles: int = 64, curvatures: int = 32) -> Floats:
     cosine = np.linspace(-1.0, 1.0, angles)
     curvature = STEEPEST * np.linspace(0.0, 1.0, curvatures) ** 2
     return np.stack([lit_around(np.arccos(cosine), np.full(angles, bend)) for bend in curvature])
+
+
+def scattering_taps(count: int = 6, farthest: float = 6.0e-3) -> tuple[Floats, Floats]:
+    """Where to look for light that comes out elsewhere, and how much of it: distances [m], (count,), and shares, (count, 3).
+
+    The first is the place itself; each of the others stands for both sides. They are close together where the profile is
+    steep. All shares, both sides counted, add up to 1 for every colour.
+    """
+    distances = farthest * np.linspace(0.0, 1.0, count) ** 2
+    edges = np.concatenate([[0.0], 0.5 * (distances[1:] + distances[:-1]), [np.inf]])
+    reached = ndtr(edges[:, None] / np.sqrt(VARIANCES)) @ WEIGHTS
+    shares = np.diff(reached, axis=0)
+    shares[0] *= 2.0
+    return distances, shares

@@ -17,7 +17,7 @@ from .buffers import bytes_of, floats_of, indices_of
 from .context import load_program, set_uniforms
 from .fine_relief import FineRelief
 from .openings import Openings
-from .scattering import STEEPEST, scattering_table
+from .scattering import STEEPEST, scattering_table, scattering_taps
 from .scene_block import linear
 from .screen import ScreenPasses
 from .skin_colour import HAEMOGLOBIN, skin_colour
@@ -34,7 +34,7 @@ class SkinPrograms:
         self.depth = body.depth
         self.part = body.part
         self.surface = load_program(context, "skin/surface.vert", "skin/surface.frag")
-        self.screens = ScreenPasses(context, "light", room="skin")
+        self.screens = ScreenPasses(context, "light", "scatter", room="skin")
         table = scattering_table()
         self.scattered = context.texture(table.shape[1::-1], 3, table.astype(np.float16), dtype="f2")
         self.scattered.repeat_x = self.scattered.repeat_y = False
@@ -147,21 +147,49 @@ class SkinBody:
             programs.set_scale(look.skin_shows)
         colour = skin_colour(skin, look)
         width, height = targets.normal.size
+        apart = skin.scattering_by == "screen" and not shows_value
         self.context.depth_func = ">"
-        programs.screens.draw(
-            "light", shadow_map=0, light_map=1, normals=3, paint=4, distances=5, places_in_map=6, states=7, slopes=8,
-            pores=9, heights=10, scattered=11, scale=12, size=(float(width), float(height)),
-            forward=tuple(view.forward), upward=tuple(view.up / view.focal),
-            sideward=tuple(view.right * width / height / view.focal),
-            skin_colour=tuple(colour), hair_colour=tuple(linear(look.hair_colour)), haemoglobin=tuple(HAEMOGLOBIN),
-            flushed=skin.flush, blood_mean=BLOOD_MEAN, blood_flow=skin.blood_flow, creases=skin.creases, gloss=skin.gloss,
-            roughness=skin.roughness, scattering=skin.scattering, steepest=STEEPEST, model=MODELS.index(skin.model),
-            tint=tuple(colour / lafortune.MEASURED_ALBEDO), measured_diffuse=tuple(lafortune.DIFFUSE),
-            shows_value=shows_value, texels=float(relief.size), metres=relief.metres,
-            mean_heights=relief.mean_heights, relief=skin.relief,
-            **lafortune_uniforms(),
-        )  # fmt: skip
+        lit = targets.scattering.lit if apart else targets.scene
+        with self.context.scope(lit, moderngl.DEPTH_TEST):
+            programs.screens.draw(
+                "light", shadow_map=0, light_map=1, normals=3, paint=4, distances=5, places_in_map=6, states=7, slopes=8,
+                pores=9, heights=10, scattered=11, scale=12, size=(float(width), float(height)),
+                forward=tuple(view.forward), upward=tuple(view.up / view.focal),
+                sideward=tuple(view.right * width / height / view.focal),
+                skin_colour=tuple(colour), hair_colour=tuple(linear(look.hair_colour)), haemoglobin=tuple(HAEMOGLOBIN),
+                flushed=skin.flush, blood_mean=BLOOD_MEAN, blood_flow=skin.blood_flow, creases=skin.creases, gloss=skin.gloss,
+                roughness=skin.roughness, scattering=skin.scattering, steepest=STEEPEST, model=MODELS.index(skin.model),
+                tint=tuple(colour / lafortune.MEASURED_ALBEDO), measured_diffuse=tuple(lafortune.DIFFUSE),
+                shows_value=shows_value, texels=float(relief.size), metres=relief.metres,
+                mean_heights=relief.mean_heights, relief=skin.relief, kept_apart=apart,
+                **lafortune_uniforms(),
+            )  # fmt: skip
+        if apart:
+            self._scatter(view, skin, targets)
         self.context.depth_func = "<"
+
+    def _scatter(self, view: View, skin: SkinSettings, targets: PictureTargets) -> None:
+        """Spread the light that has entered the skin, along rows and then along columns, and add it to the picture."""
+        scattering = targets.scattering
+        width, height = targets.normal.size
+        distances, shares = scattering_taps()
+        known = {
+            "entered": 3,
+            "distances": 4,
+            "tap_distances": distances.tolist(),
+            "tap_shares": [tuple(share) for share in shares.tolist()],
+            "scattering": skin.scattering,
+            "size": (float(width), float(height)),
+        }
+        metre = 0.5 * view.focal * height
+        scattering.entered.use(3)
+        targets.distance.use(4)
+        with self.context.scope(scattering.row, moderngl.DEPTH_TEST):
+            self.programs.screens.draw("scatter", along=(metre, 0.0), **known)
+        scattering.spread.use(3)
+        with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
+            self.context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ZERO, moderngl.ONE
+            self.programs.screens.draw("scatter", along=(0.0, metre), **known)
 
     def draw_parts(self, look: Look) -> None:
         """What belongs to the body and is no skin, into the framebuffer in use: nothing, unless a body has parts."""

@@ -45,6 +45,17 @@ class PictureTargets:
         surface = context.framebuffer([self.normal, self.paint, self.distance, place, state], self.depth)
         return SkinTargets(surface, place, state)
 
+    @cached_property
+    def scattering(self) -> ScatteringTargets:
+        """What light needs that is spread under the skin in the picture; made for the first picture that does."""
+        context, fine = self.surface.ctx, self.normal.size
+        entered = _texture(context, fine, 4, "f2", moderngl.LINEAR)
+        spread = _texture(context, fine, 4, "f2", moderngl.LINEAR)
+        lit = context.framebuffer([self.colour, entered], self.depth)
+        row = context.framebuffer([spread], self.depth)
+        lit.depth_mask = row.depth_mask = False
+        return ScatteringTargets(lit, entered, row, spread)
+
 
 @dataclass(frozen=True, eq=False)
 class SkinTargets:
@@ -54,6 +65,17 @@ class SkinTargets:
     surface: moderngl.Framebuffer
     place: moderngl.Texture
     state: moderngl.Texture
+
+
+@dataclass(frozen=True, eq=False)
+class ScatteringTargets:
+    """``lit``: what the skin mirrors goes into the picture, the light that has ``entered`` it is kept apart. ``row``: that
+    light, ``spread`` along rows."""
+
+    lit: moderngl.Framebuffer
+    entered: moderngl.Texture
+    row: moderngl.Framebuffer
+    spread: moderngl.Texture
 
 
 @dataclass(frozen=True, eq=False)
