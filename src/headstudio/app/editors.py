@@ -6,12 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from .painted_maps import DENSITY, LENGTH, PARTICLE_LENGTH, PROTRUSION
 from .parameter_rows import Panel, ParameterRows
 from .studio import Studio
 from .tools.adjust import Adjust
 from .tools.comb import Comb
 from .tools.draw_parting import DrawParting
-from .tools.paint_map import DENSITY, LENGTH, PARTICLE_LENGTH, PROTRUSION, painter
+from .tools.paint_map import painter
 from .tools.part_hair import PartHair
 from .tools.scalp_curves import ShapeScalp
 from .tools.scissors import Scissors

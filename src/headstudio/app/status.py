@@ -26,6 +26,7 @@ NOTES = {
     "creases": "Balancing furrows and bulges",
     "fine wrinkles": "Carving fine wrinkles",
     "amplitude": "Carving fine wrinkles",
+    "surface": "Joining the skin",
     "skin": "Joining the skin",
 }
 
@@ -42,7 +43,7 @@ def draw(ui: Ui, studio: Studio, rect: Rect) -> None:
 
 def progress(ui: Ui, studio: Studio, view: Rect) -> None:
     """A note over the viewport while hair is being built, with a way out."""
-    if not studio.building or studio.builds.seconds < 0.25:
+    if not studio.building or studio.work.in_gesture or studio.builds.seconds < 0.25:
         return
     note = f"{NOTES.get(studio.builds.part, studio.builds.part)}   {studio.builds.seconds:.1f} s"
     width, height = ui.px(400), ui.px(44)

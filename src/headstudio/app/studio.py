@@ -16,6 +16,7 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.project import ProjectError
 from ..scene.stage import Stage
+from ..wisp.selection import StylingError
 from .brush import Brush
 from .builds import Builds
 from .chores import Chores
@@ -26,7 +27,7 @@ from .styling_items import Chosen
 from .work import Work
 
 # What the program foresaw and says in its own words; anything else is named with its type.
-FORESEEN = (HeadError, ParameterError, ProjectError, RenderError, FilmError, OSError)
+FORESEEN = (HeadError, ParameterError, StylingError, ProjectError, RenderError, FilmError, OSError)
 
 DRAFT = 6000  # strands that are shown while something is dragged
 

@@ -1,27 +1,24 @@
-"""Paint a map on the scalp: density, length and protrusion of hair (Choe, Ko 2005, section 2.3)."""
+"""Paint a map on the scalp."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
-from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
-from ...head.length_maps import preset, sample
+from ...head.length_maps import sample
 from ...head.mesh import Floats
 from ...head.scalp import Scalp
 from ...head.scalp_settings import GrayImage
-from ...scene.document import Document
 from ...scene.stage import Stage
 from ...wisp.follicles import tiles_of
-from ...wisp.maps import density_map, length_map, protrusion_map
 from ...wisp.proportions import Proportions
 from .. import theme
 from ..brush import BrushStroke, Sheet
 from ..map_colours import map_colours
+from ..painted_maps import PaintedMap
 from ..parameter_widgets import edit_item
 from ..studio import Studio
 from ..ui import Ui
@@ -30,55 +27,7 @@ from .tool import Canvas, Pointer, Tool
 _LIFT = 0.002  # of the coloured map off the skin [m]
 _RING = 48  # points of the drawn rim of the brush
 _OPACITY = 0.6
-
-
-@dataclass(frozen=True)
-class PaintedMap:
-    """A map of the document that can be painted: what it is called, and how it is read and replaced."""
-
-    label: str
-    icon: str
-    help: str
-    read: Callable[[Document], GrayImage]
-    write: Callable[[Document, GrayImage], Document]
-
-
-def _of_wisps(field: str) -> Callable[[Document, GrayImage], Document]:
-    def write(document: Document, image: GrayImage) -> Document:
-        changed: dict[str, Any] = {field: image}
-        return replace(document, wisp=replace(document.wisp, **changed))
-
-    return write
-
-
-DENSITY = PaintedMap(
-    "Density",
-    icons.ICON_FA_SEEDLING,
-    "Paint where hair grows densely; what is black grows none.",
-    lambda document: density_map(document.wisp),
-    _of_wisps("painted_density"),
-)
-LENGTH = PaintedMap(
-    "Length",
-    icons.ICON_FA_RULER_VERTICAL,
-    "Paint how long hair is, as a part of the longest.",
-    lambda document: length_map(document.wisp),
-    _of_wisps("painted_lengths"),
-)
-PROTRUSION = PaintedMap(
-    "Protrusion",
-    icons.ICON_FA_UP_LONG,
-    "Paint where hair stands up (bright) and where it lies on the scalp (dark).",
-    lambda document: protrusion_map(document.wisp),
-    _of_wisps("painted_protrusion"),
-)
-PARTICLE_LENGTH = PaintedMap(
-    "Lengths",
-    icons.ICON_FA_RULER_VERTICAL,
-    "Paint how long hair is, as a part of the longest.",
-    lambda document: document.scalp.painted_lengths or preset(document.scalp.length_map),
-    lambda document, image: replace(document, scalp=replace(document.scalp, painted_lengths=image)),
-)
+_SIZE = 256, 256  # texels of a map that is made from nothing
 
 
 def painter(painted: PaintedMap) -> Callable[[Studio], PaintMap]:
@@ -120,8 +69,7 @@ class PaintMap(Tool):
         if self._stroke is None or pointer.hit is None:
             return
         self._stroke.move(pointer.hit.point)
-        image = GrayImage(self._stroke.result.astype(np.float32))
-        self.studio.work.change(self.painted.write(self.studio.document, image), self._name)
+        self._put(GrayImage(self._stroke.result.astype(np.float32)), self._name)
 
     def release(self) -> None:
         """The stroke is done."""
@@ -129,17 +77,17 @@ class PaintMap(Tool):
         self.studio.work.end_gesture()
 
     def options(self, ui: Ui) -> None:
-        """The brush, and filling the whole map."""
+        """The brush, and what is done to the whole map."""
         self.studio.brush, _ = edit_item(ui, self.studio.brush)
         width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
         for label, value in (("Fill", 1.0), ("Clear", 0.0)):
-            if ui.button(label, f"Make the whole map {'white' if value else 'black'}.", width=width):
-                image = GrayImage(np.full((256, 256), value, dtype=np.float32))
-                self.studio.work.change(
-                    self.painted.write(self.studio.document, image), f"{label} {self._name.lower()}"
-                )
+            if ui.button(label, f"Make the whole map {'bright' if value else 'dark'}.", width=width):
+                self._put(GrayImage(np.full(_SIZE, value, dtype=np.float32)), f"{label} {self._name.lower()}")
             imgui.same_line()
         imgui.new_line()
+        painted = self.painted.is_painted(self.studio.document)
+        if ui.button("Forget", "Take the painted map away.", text="Forget what is painted", enabled=painted, width=-1):
+            self._put(None, f"Forget {self._name.lower()}")
 
     def dress(self, stage: Stage) -> Stage:
         """The map in colours on the scalp."""
@@ -187,6 +135,9 @@ class PaintMap(Tool):
             (theme.packed(theme.INK, strength), 1.5),
         ):
             canvas.drawing.add_polyline(shown, colour, width * canvas.scale, imgui.ImDrawFlags_.closed.value)
+
+    def _put(self, image: GrayImage | None, label: str) -> None:
+        self.studio.work.change(self.painted.write(self.studio.document, image), label)
 
     @property
     def _name(self) -> str:

@@ -14,10 +14,11 @@ from ...scene.animation import Animation
 from ...scene.document import Document
 from ...scene.stage import Stage
 from ...wisp.selection import Selection
+from ..painted_maps import PaintedMap
 from ..studio import Studio
 from ..styling_items import selection_of
 from .freehand import Freehand, draw_line, evenly
-from .paint_map import PaintedMap, PaintMap
+from .paint_map import PaintMap
 from .tool import Canvas, Pointer
 
 _MOST = 48  # corners of a lasso
@@ -111,12 +112,15 @@ class PaintSelection(PaintMap):
     """A brush that paints which wisps the chosen operation or cut is for."""
 
     def __init__(self, studio: Studio) -> None:
+        def of(document: Document) -> Selection | None:
+            return selection_of(studio.chosen.of(document)) if studio.chosen else None
+
         def read(document: Document) -> GrayImage:
-            selection = selection_of(studio.chosen.of(document)) if studio.chosen else None
+            selection = of(document)
             mask = selection.mask if selection else None
             return mask or GrayImage(np.zeros((_MASK, _MASK), dtype=np.float32))
 
-        def write(document: Document, image: GrayImage) -> Document:
+        def write(document: Document, image: GrayImage | None) -> Document:
             item = studio.chosen.of(document) if studio.chosen else None
             if studio.chosen is None or item is None or selection_of(item) is None:
                 return document
@@ -130,6 +134,7 @@ class PaintSelection(PaintMap):
                 "Paint which wisps the chosen operation or cut is for: those that are half bright.",
                 read,
                 write,
+                lambda document: bool((selection := of(document)) and selection.mask),
             ),
         )
         self._roots = SelectedRoots(studio)

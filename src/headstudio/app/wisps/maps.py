@@ -10,8 +10,8 @@ from ...head.scalp_settings import GrayImage
 from ...render.small_picture import SmallPicture
 from .. import theme
 from ..map_colours import map_colours
+from ..painted_maps import DENSITY, LENGTH, PROTRUSION, PaintedMap
 from ..parameter_rows import ParameterRows
-from ..tools.paint_map import DENSITY, LENGTH, PROTRUSION, PaintedMap
 from ..ui import Ui
 from .hand import Hand
 from .named import Named
