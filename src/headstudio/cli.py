@@ -206,12 +206,24 @@ def style(
     size: SizeOption = "512",
     view: ViewOption = None,
     points: PointsOption = None,
+    operation: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--operation",
+            metavar='"KIND WHERE"',
+            help='tie, braid, bun, updo or cut, and for which hair: "braid back and u > 0.5". May be repeated.',
+        ),
+    ] = None,
+    operations: Annotated[
+        Path | None, typer.Option("--operations", help="A JSON file of operations and cuts, as in a project.")
+    ] = None,
     head: HeadOption = None,
     seed: SeedOption = None,
     set_: SetOption = None,
 ) -> None:
     """Style hair from wisps: a picture, a project or the strands themselves."""
     from .commands.documents import choose_view, head_source, open_document
+    from .commands.operations import with_operations
     from .commands.pictures import parse_size
     from .commands.style import style
 
@@ -224,6 +236,7 @@ def style(
         wisp_wisps=wisps,
         wisp_seed=seed,
     )
+    document = with_operations(document, operation or (), operations)
     style(choose_view(document, view), out, parse_size(size), points)
 
 

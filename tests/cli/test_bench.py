@@ -9,7 +9,6 @@ from scipy.spatial import cKDTree
 
 from headstudio.bench.neighbours import neighbour_cost
 
-
 HEAD = ("--head", "mannequin")
 
 

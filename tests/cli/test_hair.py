@@ -50,11 +50,24 @@ def test_import_says_what_it_found(headstudio, tmp_path):
     assert np.quantile(np.linalg.norm(moved, axis=1), 0.95) < 2e-3, "hair of this head stays where it was"
 
 
+def test_hairdressing_by_word_and_by_file(headstudio, tmp_path):
+    headstudio("style", *FEW, "--out", "plain.npy")
+    headstudio("style", *FEW, "--operation", "tie back", "--out", "tied.npy")
+    (tmp_path / "list.json").write_text('[{"kind": "cut", "place": [0, -0.5, 0], "normal": [0, -1, 0]}]')
+    headstudio("style", *FEW, "--operations", "list.json", "--out", "cut.npy")
+    plain, tied, cut = (read_strands(tmp_path / f"{name}.npy").points for name in ("plain", "tied", "cut"))
+    assert np.abs(tied - plain).max() > 0.02
+    assert cut[:, 1].min() > plain[:, 1].min() + 0.02
+
+
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
         (["style", "--preset", "nonsense", "--out", "x.png"], "no style 'nonsense'"),
         (["style", "--out", "x.xyz"], "a style is written to"),
+        (["style", "--operation", "knot all"], "begins with tie, braid, bun, updo, cut"),
+        (["style", "--operation", "tie behind"], "tie behind"),
+        (["style", "--operations", "missing.json"], "missing.json"),
         (["export", "nonsense", "x.hair"], "neither a project"),
         (["export", "bob", "x.xyz"], "hair is written to"),
         (["export", "missing.hair", "x.ply"], "missing.hair"),
