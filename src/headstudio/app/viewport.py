@@ -14,6 +14,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from ..render.renderer import Renderer
 from ..scene.settings import Camera, Look
+from ..scene.skin_settings import SkinSettings
 from ..scene.stage import Stage
 from ..scene.views import seen_from
 from . import navigation
@@ -35,6 +36,7 @@ class _Drawn:
     stage: Stage
     look: Look
     camera: Camera
+    skin: SkinSettings
     size: tuple[int, int]
     supersampling: int
 
@@ -135,12 +137,14 @@ class Viewport:
         part = RESOLUTIONS[self._resolution] if moving else 1.0
         density = pixels_per_unit * part
         size = (max(int(self.rect.width * density), 16), max(int(self.rect.height * density), 16))
-        wanted = _Drawn(stage, document.look, document.camera, size, supersampling or 1)
+        wanted = _Drawn(stage, document.look, document.camera, document.skin, size, supersampling or 1)
         if wanted == self._drawn:
             return
         started = time.perf_counter()
         with self.studio.reporting() as outcome:
-            self.renderer.render(stage, document.look, document.camera, size, supersampling=wanted.supersampling)
+            self.renderer.render(
+                stage, document.look, document.camera, size, supersampling=wanted.supersampling, skin=document.skin
+            )
         # A picture that failed is not tried again until something changes.
         self._drawn = wanted
         if outcome.good and moving:

@@ -188,7 +188,8 @@ class SkinBody:
             self.programs.screens.draw("scatter", along=(metre, 0.0), **known)
         scattering.spread.use(3)
         with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
-            self.context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ZERO, moderngl.ONE
+            # Colours add up, coverage stays.
+            self.context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ZERO, moderngl.ONE  # type: ignore[assignment]
             self.programs.screens.draw("scatter", along=(0.0, metre), **known)
 
     def draw_parts(self, look: Look) -> None:

@@ -12,7 +12,9 @@ from .skin_colour import web_colour
 
 # Ends of the scales: area doubled or halved, lengths by a quarter, and displacement of so many metres.
 _SHRINKAGE = 0.25
-_HEIGHT = 0.003
+_HEIGHT = 0.0015
+# A furrow's own figures are shown this far to its sides, in widths, and run out into those of the skin around it.
+_BESIDE = 3.0
 
 # Blue below, white for nothing, red above (two ends equally dark); and from dark to light for what begins at 0.
 _DIVERGING = ("#1d4f91", "#5d96c8", "#b8d3e6", "#f2f0ec", "#f0bfa4", "#d36f5b", "#8e1b34")
@@ -26,7 +28,7 @@ def shown_values(shows: str, skin: LivingSkin) -> Floats:
         case "shrinkage":
             return 0.5 + 0.5 * _shrinkage(skin) / _SHRINKAGE
         case "amplitude":
-            return _furrow_values(skin, skin.skin.amplitude, skin.amplitudes.mean(axis=1))
+            return _furrow_values(skin, skin.skin.amplitude, skin.amplitudes.mean(axis=1) * skin.surface.mapped)
         case "height":
             return 0.5 + 0.5 * skin.skin.height / _HEIGHT
         case _:
@@ -75,9 +77,13 @@ def _larger(fields: Floats) -> Floats:
 
 
 def _furrow_values(skin: LivingSkin, of_entries: Floats, elsewhere: Floats) -> Floats:
-    """Values of the bed's entries at their vertices, the one of the nearest furrow where there are several, (N,)."""
+    """Values of the bed's entries, (i,), at their vertices, of the nearest furrow where there are several; (N,)."""
     bed = skin.surface.bed
-    far_first = np.argsort(-bed.beside.distance, kind="stable")
+    widths = np.array([laid.furrow.width for laid in bed.furrows])[bed.furrow]
+    near = np.clip(1.0 - bed.beside.distance / (_BESIDE * widths), 0.0, 1.0)
+    nearest_last = np.argsort(near, kind="stable")
+    at = bed.vertex[nearest_last]
     values = elsewhere.copy()
-    values[bed.vertex[far_first]] = of_entries[far_first]
+    mixed = elsewhere[bed.vertex] + near * (of_entries - elsewhere[bed.vertex])
+    values[at] = mixed[nearest_last]
     return values
