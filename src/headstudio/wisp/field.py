@@ -99,14 +99,20 @@ def _blown(places: Floats, styling: StylingSettings) -> Floats:
 
 
 def _parted(places: Floats, styling: StylingSettings) -> Floats:
-    side = np.tanh((places[:, 0] - styling.parting) / 0.12)
+    side = np.tanh(_beside_parting(places, styling) / 0.12)
     on_top = 1.0 - _fade(places[:, 1], 0.1, 0.6)
     return on_top * np.outer(side, [1.0, 0.0, 0.0])
 
 
+def _beside_parting(places: Floats, styling: StylingSettings) -> Floats:
+    """How far to the left of the parting places are, (k,). From the top of the head on it runs back to the whorl."""
+    behind = np.clip(-places[:, 2], 0.0, 1.0)
+    return places[:, 0] - styling.parting * (1.0 - 0.6 * behind**1.5)
+
+
 def _off_face(places: Floats, styling: StylingSettings) -> Floats:
     # Hair goes to the side of the parting that it comes from: across the forehead, not against itself.
-    side = np.tanh((places[:, 0] - styling.parting) / 0.1)[:, None]
+    side = np.tanh(_beside_parting(places, styling) / 0.1)[:, None]
     before_face = (1.0 - _fade(places[:, 2], 0.1, 0.7)) * _fade(np.abs(places[:, 0]), 0.95, 1.3)
     below_hairline = _fade(places[:, 1], 0.6, 1.1)
     return before_face * below_hairline * (side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))

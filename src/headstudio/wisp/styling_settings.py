@@ -61,12 +61,12 @@ class StylingSettings:
     )
     parted: float = _weight(0.7, "Parted", "Weight of the push to both sides of the parting, on top of the head.")
     parting: float = number(
-        0.45,
+        0.55,
         "Parting",
         "",
         -1.0,
         1.0,
-        "Where hair parts, in half breadths of the head: 0 in the middle, positive to the person's left.",
+        "Where hair parts in front, in half breadths of the head: 0 in the middle, positive to the person's left.",
     )
     off_face: float = _weight(1.6, "Off the face", "Weight of the push from the face to the sides.")
     inward: float = _weight(0.0, "Inward", "Weight of the pull toward the neck, which turns the tips of a bob in.")
