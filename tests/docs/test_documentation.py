@@ -1,5 +1,6 @@
 """The documentation is true: its commands and its Python run, its names and links exist, its tables are current."""
 
+import dataclasses
 import functools
 import importlib
 import re
@@ -12,7 +13,9 @@ from typer.testing import CliRunner
 from headstudio.cli import app
 from headstudio.commands.parameters import markdown
 from headstudio.head.load import load_head
+from headstudio.params import walk
 from headstudio.scene import builder
+from headstudio.scene.document import Document
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -85,6 +88,14 @@ def test_every_function_named_beside_an_equation_exists(page):
     assert len(names) > 20
     for name in names:
         resolve(f"headstudio.{name}")
+
+
+@pytest.mark.parametrize("page", [ROOT / "docs/guide.md", ROOT / "CHANGELOG.md"], ids=lambda page: page.name)
+def test_every_parameter_that_a_page_names_exists(page):
+    parts = "|".join(field.name for field in dataclasses.fields(Document))
+    names = set(re.findall(rf"`((?:{parts})\.\w+)`", page.read_text()))
+    assert names
+    assert names - {name for name, _, _ in walk(Document())} == set()
 
 
 def resolve(path):
