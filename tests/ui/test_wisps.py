@@ -187,12 +187,19 @@ def test_shift_smooths_on_the_scalp_and_pans_beside_it(wisps):
 def test_a_map_in_the_hand_is_seen_on_the_scalp(wisps):
     stage = wisps.studio.stage
     assert len(wisps.app.viewport.tool.dress(stage).overlays.triangles) == 0
+    wisps.studio.set("look.show_hair", False, "Hair")
+    wisps.frames(2)
+    x, y = (round(at) for at in on_scalp(wisps, 0.5, 0.1))
+    plain = wisps.app.window.picture()[y, x].astype(int)
     wisps.click("1 Maps/Paint density")
     tool = wisps.app.viewport.tool
     dressed = tool.dress(wisps.studio.stage)
     assert tool.label == "Density"
     assert len(dressed.overlays.triangles) > 500
     assert tool.dress(wisps.studio.stage) is dressed, "nothing is sent twice"
+    wisps.frames(2)
+    yellow = wisps.app.window.picture()[y, x].astype(int)
+    assert yellow[:2].min() - yellow[2] > plain[:2].min() - plain[2] + 60
 
 
 def test_a_named_map_takes_the_place_of_the_painted_one(wisps, opened):

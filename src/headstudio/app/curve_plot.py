@@ -18,7 +18,8 @@ GRAB = 10.0
 HEIGHT = 108.0
 _LEAST_GAP = 0.005  # between neighbours, along x
 _SAMPLES = 96
-_HELP = "Drag a point; double click adds one, right click takes it away."
+
+HELP = "Drag points; double click adds one, right click takes one."
 
 
 class CurvePlot:
@@ -44,8 +45,6 @@ class CurvePlot:
         imgui.invisible_button(f"##{self.label}", (area.width, area.height), buttons)
         ui.note(self.label)
         changed = self._take_mouse(ui, area, points)
-        if self._held is None:
-            ui.hint(_HELP)
         self._draw(ui, area, changed or points)
         return changed
 

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ...wisp.curves import LengthDistribution, radius_points
-from ..curve_plot import CurvePlot
+from ..curve_plot import HELP, CurvePlot
 from ..parameter_rows import ParameterRows
 from ..ui import Ui
 from .named import Named
@@ -36,6 +36,7 @@ class WispStep:
         curve = self._length_plot.draw(ui, tuple((float(u), float(density)) for u, density in shape))
         if curve is not None:
             self._lengths.put(curve)
+        ui.muted(HELP)
         self._radii.row(ui)
         curve = self._radius_plot.draw(ui, radius_points(wisp))
         if curve is not None:

@@ -15,6 +15,7 @@ from ...wisp.outlines import Outlines
 from ...wisp.prototypes import prototype_of
 from ...wisp.settings import Path3D, WispSettings
 from .. import theme
+from ..curve_plot import HELP
 from ..parameter_rows import ParameterRows
 from ..ui import Rect, Ui
 from .named import Named
@@ -27,7 +28,6 @@ _PERIODS, _PER_PERIOD = 3, 8  # of a shipped prototype as control points
 _STRAIGHT = 0.12  # length of the straight prototype as control points [m]
 _WIDEST = 3.0  # a strand may look so many times as wide as it is long, for handles to be told apart
 _FROM_FRONT, _FROM_SIDE = 0, 2  # the coordinate that a view shows across
-_HELP = "Drag a point; double click adds one, right click takes it away."
 
 
 class PrototypeStep:
@@ -53,6 +53,7 @@ class PrototypeStep:
             changed = self._draw_view(ui, label, across, area, points, frame) or changed
         self._draw_siblings(ui, Rect(corner.x + 2 * (width + gap), corner.y, width, ui.px(_HEIGHT)), wisp, frame)
         imgui.set_cursor_screen_pos((corner.x, corner.y + ui.px(_HEIGHT) + imgui.get_style().item_spacing.y))
+        ui.muted(HELP)
         if changed is not None:
             self._named.put(changed)
         self.rows.rows(ui, "wisp", ("curl_size", "curl_length", "straight_roots"))
@@ -63,8 +64,6 @@ class PrototypeStep:
         imgui.invisible_button(f"##{label}", (area.width, area.height), buttons)
         ui.note(label)
         changed = self._take_mouse(ui, across, area, points, frame)
-        if self._held is None:
-            ui.hint(_HELP)
         points = points if changed is None else changed
         _draw_ground(ui, area, label)
         canvas = imgui.get_window_draw_list()
