@@ -25,6 +25,7 @@ SIZE = (160, 200)
 STRANDS = 20_000
 VIEWS = ("three-quarter", "left", "back")
 COLOURS = 256
+MEN = ("mens-short", "beard")  # shown on a man where the head knows the difference
 
 SHEETS = {
     "long": ("straight-long", "fringe", "bob", "side-part", "wavy-lob", "hairband"),
@@ -53,8 +54,9 @@ def main(head: str, folder: Path, sheets: list[str]) -> None:
 
 
 def _views(name: str, head: str, builder: Builder, photographer: Photographer) -> np.ndarray:
-    document = load_style(name).on(assign(Document(), {"head.source": head, "look.hair_as": "strands"}))
-    document = replace(document, camera=replace(document.camera, distance=0.9))
+    shown = {"head.source": head, "head.masculine": float(name in MEN), "look.hair_as": "strands"}
+    document = load_style(name).on(assign(Document(), shown))
+    document = replace(document, camera=replace(document.camera, distance=0.93, target_y=-0.015))
     stage = Animation(builder, document, STRANDS).stage()
     return np.concatenate([photographer.still(stage, choose_view(document, view), SIZE) for view in VIEWS], axis=1)
 
