@@ -31,7 +31,7 @@ class Actions:
     def __init__(self, app: Application) -> None:
         self._app = app
         self._studio = app.studio
-        self._face_files = FaceFiles(app.studio, app.dialogs)
+        self.face_files = FaceFiles(app.studio, app.dialogs)
 
     def commands(self) -> list[Command]:
         """Every command in the order of the menus."""
@@ -144,7 +144,7 @@ class Actions:
             Command("File", "Import a head...", self.import_head, "Ctrl+I"),
             Command("File", "Export picture...", self.export_picture, "Ctrl+E", self._has_picture),
             _line("File"),
-            *self._face_files.commands(),
+            *self.face_files.commands(),
             _line("File"),
             Command("File", "Quit", self.quit, "Ctrl+Q"),
         ]

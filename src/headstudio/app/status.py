@@ -27,6 +27,7 @@ NOTES = {
     "fine wrinkles": "Carving fine wrinkles",
     "amplitude": "Carving fine wrinkles",
     "surface": "Joining the skin",
+    "surface": "Joining the skin",
     "skin": "Joining the skin",
 }
 

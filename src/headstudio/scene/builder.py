@@ -24,7 +24,7 @@ from ..wrinkle.face import Face
 from ..wrinkle.face_creases import face_bed, face_creases
 from ..wrinkle.fine_guides import face_guides
 from ..wrinkle.fine_wrinkles import FineWrinkles, grow_fine_wrinkles
-from ..wrinkle.living_skin import Skin
+from ..wrinkle.living_skin import Skin, SkinSurface
 from ..wrinkle.texture_map import TextureMap
 from .document import Document
 from .settings import HeadSettings
@@ -127,7 +127,9 @@ class Builder:
         )
         creases = self._part("creases", (bed, wrinkle), lambda: face_creases(head, wrinkle, bed))
         fine = self._fine_wrinkles(document, bed.layout.texture_map)
-        return self._part("skin", (face, bed, creases, fine), lambda: Skin(face, bed, creases, fine))
+        # Who draws it keeps what it made of a surface, so a change of depth alone must not make another one.
+        surface = self._part("surface", (bed, fine), lambda: SkinSurface(head, bed, fine))
+        return self._part("skin", (face, surface, creases), lambda: Skin(face, surface, creases))
 
     def _fine_wrinkles(self, document: Document, texture_map: TextureMap) -> FineWrinkles | None:
         if not document.fine.on:

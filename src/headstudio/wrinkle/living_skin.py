@@ -101,10 +101,11 @@ class LivingSkin:
 class Skin:
     """One head's skin, ready for any expression."""
 
-    def __init__(self, face: Face, bed: FurrowBed, creases: Creases, fine: FineWrinkles | None) -> None:
+    def __init__(self, face: Face, surface: SkinSurface, creases: Creases) -> None:
+        """surface: of the head that ``face`` moves. creases: on the bed of this surface."""
         self.face = face
         self.creases = creases
-        self.surface = SkinSurface(face.head, bed, fine)
+        self.surface = surface
         self._thickness: tuple[object, Floats] | None = None
 
     def at(self, settings: FaceSettings) -> LivingSkin:

@@ -41,16 +41,17 @@ class ExpressionPanel:
         gap = imgui.get_style().item_spacing.x
         width = (imgui.get_content_region_avail().x - gap * (COLUMNS - 1)) / COLUMNS
         shown = {name: weight for name, weight in _strengths(self._face()).items() if weight > 0}
-        for k, (name, weights) in enumerate(FACES.items()):
-            if k % COLUMNS:
-                imgui.same_line()
-            label = name.replace("-", " ").capitalize()
-            if ui.button(label, f"Show this face: {_listed(weights)}.", on=shown == weights, width=width):
-                self._set(dict.fromkeys(SLIDERS, 0.0) | dict(weights), label)
-        imgui.same_line()
-        if ui.button("Swap sides", "What the left side shows goes to the right, and back.", width=width):
-            strengths = _strengths(self._face())
-            self._set({name: strengths[_other_side(name)] for name in SLIDERS}, "Swap sides of the face")
+        with ui.within("Faces"):
+            for k, (name, weights) in enumerate(FACES.items()):
+                if k % COLUMNS:
+                    imgui.same_line()
+                label = name.replace("-", " ").capitalize()
+                if ui.button(label, f"Show this face: {_listed(weights)}.", on=shown == weights, width=width):
+                    self._set(dict.fromkeys(SLIDERS, 0.0) | dict(weights), label)
+            imgui.same_line()
+            if ui.button("Swap sides", "What the left side shows goes to the right, and back.", width=width):
+                strengths = _strengths(self._face())
+                self._set({name: strengths[_other_side(name)] for name in SLIDERS}, "Swap sides of the face")
 
     def _draw_sliders(self, ui: Ui, names: tuple[str, ...]) -> None:
         before = self._face()

@@ -42,27 +42,28 @@ class FaceFiles:
 
     def import_furrows(self) -> None:
         """Ask for a furrow set and put it on the face, as one change."""
-        self._dialogs.ask_file(FileWish("Import furrows", (FURROW_SUFFIX,)), self._read_furrows)
+        self._dialogs.ask_file(FileWish("Import furrows", (FURROW_SUFFIX,)), self.load_furrows)
 
     def export_furrows(self) -> None:
         """Ask where to, and write the furrows of the document there; they fit any other head."""
         wish = FileWish("Export furrows", (FURROW_SUFFIX,), saving=True, suggestion=f"furrows{FURROW_SUFFIX}")
-        self._dialogs.ask_file(wish, self._write_furrows)
+        self._dialogs.ask_file(wish, self.save_furrows)
 
     def export_mesh(self) -> None:
         """Ask where to, and write the head as it is now, with its wrinkles."""
         wish = FileWish("Export the face as a mesh", MESH_SUFFIXES, saving=True, suggestion="face.obj")
-        self._dialogs.ask_file(wish, self._write_mesh)
+        self._dialogs.ask_file(wish, self.save_mesh)
 
     def export_maps(self) -> None:
         """Ask for a folder, and bake the maps of the face as it is now, and the weights of the named faces, into it."""
         wish = FileWish("Export wrinkle maps into a folder", ("",), saving=True, suggestion="wrinkle-maps")
-        self._dialogs.ask_file(wish, self._write_maps)
+        self._dialogs.ask_file(wish, self.save_maps)
 
     def _has_skin(self) -> bool:
         return self._studio.stage is not None and self._studio.stage.skin is not None
 
-    def _read_furrows(self, path: Path) -> None:
+    def load_furrows(self, path: Path) -> None:
+        """Put the furrow set of a file on the face; what is wrong with it becomes a message."""
         with self._studio.reporting() as outcome:
             furrows = read_furrows(path)
             document = self._studio.document
@@ -71,14 +72,16 @@ class FaceFiles:
         if outcome.good:
             self._studio.messages.say(f"{len(furrows)} furrows from {path.name}", "good")
 
-    def _write_furrows(self, path: Path) -> None:
+    def save_furrows(self, path: Path) -> None:
+        """Write the furrows of the document."""
         path = path if path.suffix else path.with_suffix(FURROW_SUFFIX)
         with self._studio.reporting() as outcome:
             write_furrows(self._studio.document.wrinkle.chosen, path)
         if outcome.good:
             self._studio.messages.say(f"Wrote {path}", "good")
 
-    def _write_mesh(self, path: Path) -> None:
+    def save_mesh(self, path: Path) -> None:
+        """Write the head as it is now; its ending decides the format."""
         stage = self._studio.stage
         if path.suffix.lower() not in MESH_SUFFIXES:
             path = path.with_name(f"{path.name}{MESH_SUFFIXES[0]}")
@@ -91,7 +94,8 @@ class FaceFiles:
 
         self._studio.chores.run(write)
 
-    def _write_maps(self, folder: Path) -> None:
+    def save_maps(self, folder: Path) -> None:
+        """Bake into a folder while the window goes on."""
         stage, grown = self._studio.stage, self._studio.grown
         if stage is None or stage.skin is None or grown is None or grown.animation.skin is None:
             return

@@ -35,12 +35,15 @@ class _Stroke:
 
 @dataclass(frozen=True)
 class _Hold:
-    """What the mouse holds: a handle of the chosen furrow, or all of it; where it was taken, on the chart [m]."""
+    """What the mouse holds: a handle of the chosen furrow, or all of it; where it was taken, on the chart [m], and where the
+    mouse was then.
+    """
 
     number: int
     furrow: Furrow
     handle: int | None
     taken_at: Floats
+    touch: Touch
 
 
 class FurrowTool(SkinTool):
@@ -58,6 +61,7 @@ class FurrowTool(SkinTool):
         self.set = FurrowSet(studio)
         self._stroke: _Stroke | None = None
         self._hold: _Hold | None = None
+        self._moving = False
 
     def press_on(self, canvas: SkinCanvas, touch: Touch) -> bool:
         """Take a handle or a furrow, or begin a stroke."""
@@ -70,12 +74,13 @@ class FurrowTool(SkinTool):
             return
         on_chart = canvas.faces.on_chart(place)[0]
         if self._hold is not None:
-            self._move(self._hold, on_chart)
-        elif self._stroke is not None:
-            last = self._stroke.window[-1]
-            if np.hypot(touch.x - last[0], touch.y - last[1]) >= STEP * canvas.scale:
-                self._stroke.chart.append(on_chart)
-                self._stroke.window.append((touch.x, touch.y))
+            # A click alone chooses a furrow and changes nothing.
+            self._moving |= _apart(touch, self._hold.touch) >= STEP * canvas.scale
+            if self._moving:
+                self._move(self._hold, on_chart)
+        elif self._stroke is not None and _apart(touch, Touch(*self._stroke.window[-1])) >= STEP * canvas.scale:
+            self._stroke.chart.append(on_chart)
+            self._stroke.window.append((touch.x, touch.y))
 
     def release(self) -> None:
         """A stroke becomes a furrow; one too short to be one lets go of the furrow that was chosen."""
@@ -128,11 +133,13 @@ class FurrowTool(SkinTool):
             return False
         handle = int(which[found])
         if touch.ctrl:
-            left = without_point(furrow, handle) if handle % 3 == 0 else None
+            if handle % 3:
+                return False
+            left = without_point(furrow, handle)
             if left is not None:
                 self.set.put(number, left, "Remove handle")
             return True
-        self._take(number, furrow, handle, furrow.chain.controls[handle])
+        self._take(_Hold(number, furrow, handle, furrow.chain.controls[handle], touch))
         return True
 
     def _take_furrow(self, canvas: SkinCanvas, touch: Touch) -> bool:
@@ -147,7 +154,7 @@ class FurrowTool(SkinTool):
             self.set.put(number, with_point(furrow, on_chart), "Add handle")
             return True
         self.set.chosen = number
-        self._take(number, furrow, None, on_chart)
+        self._take(_Hold(number, furrow, None, on_chart, touch))
         return True
 
     def _begin_stroke(self, canvas: SkinCanvas, touch: Touch) -> bool:
@@ -157,8 +164,8 @@ class FurrowTool(SkinTool):
         self._stroke = _Stroke([canvas.faces.on_chart(place)[0]], [(touch.x, touch.y)])
         return True
 
-    def _take(self, number: int, furrow: Furrow, handle: int | None, taken_at: Floats) -> None:
-        self._hold = _Hold(number, furrow, handle, taken_at)
+    def _take(self, hold: _Hold) -> None:
+        self._hold, self._moving = hold, False
         self.studio.work.begin_gesture("Move furrow")
 
     def _move(self, hold: _Hold, to: Floats) -> None:
@@ -192,3 +199,7 @@ class FurrowTool(SkinTool):
             (centre,) = as_points(point[None])
             drawing.add_circle_filled(centre, radius + 1.6 * scale, theme.packed(theme.GROUND, 0.85))
             drawing.add_circle_filled(centre, radius, theme.packed(theme.ACCENT if k % 3 == 0 else theme.INK))
+
+
+def _apart(one: Touch, other: Touch) -> float:
+    return float(np.hypot(one.x - other.x, one.y - other.y))

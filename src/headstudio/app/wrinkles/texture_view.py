@@ -62,7 +62,7 @@ class TextureView:
         flags = imgui.ButtonFlags_
         buttons = flags.mouse_button_left.value | flags.mouse_button_right.value | flags.mouse_button_middle.value
         imgui.invisible_button("##texture", (area.width, area.height), buttons)
-        ui.note(self.label)
+        ui.note("Texture")
         hovered, active = imgui.is_item_hovered(), imgui.is_item_active()
         canvas = self._take_mouse(faces, area, ui.scale, hovered=hovered, active=active)
         drawing.push_clip_rect((area.x, area.y), far, True)
@@ -75,6 +75,10 @@ class TextureView:
             tool.draw_on(canvas, drawing, Touch(mouse.x, mouse.y) if hovered else None)
         drawing.pop_clip_rect()
         self._draw_buttons(ui, area, faces)
+
+    def canvas(self, faces: FacePlaces, area: Rect, scale: float = 1.0) -> TextureCanvas:
+        """Texture space as it lies in ``area`` now."""
+        return TextureCanvas(faces, area, self._centre, self._zoom * min(area.width, area.height), scale)
 
     def _draw_buttons(self, ui: Ui, area: Rect, faces: FacePlaces) -> None:
         imgui.set_cursor_screen_pos((area.x + ui.px(8), area.y + ui.px(8)))
@@ -102,7 +106,7 @@ class TextureView:
         """Pan, zoom or lead the tool; returns the canvas as it is after that."""
         io = imgui.get_io()
         side = min(area.width, area.height)
-        canvas = TextureCanvas(faces, area, self._centre, self._zoom * side, scale)
+        canvas = self.canvas(faces, area, scale)
         x, y = io.mouse_pos.x, io.mouse_pos.y
         if hovered and io.mouse_wheel:
             fixed = canvas.to_uv(x, y)
@@ -118,7 +122,7 @@ class TextureView:
             tool.drag_on(canvas, Touch(x, y, io.key_ctrl, io.key_shift))
         elif self._held == "pan":
             self._centre = self._centre - np.array([io.mouse_delta.x, -io.mouse_delta.y]) / (self._zoom * side)
-        return TextureCanvas(faces, area, self._centre, self._zoom * side, scale)
+        return self.canvas(faces, area, scale)
 
     def _begin(self, canvas: TextureCanvas, io: imgui.IO) -> None:
         tool = self._viewport.tool
