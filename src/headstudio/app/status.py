@@ -27,7 +27,6 @@ NOTES = {
     "fine wrinkles": "Carving fine wrinkles",
     "amplitude": "Carving fine wrinkles",
     "surface": "Joining the skin",
-    "surface": "Joining the skin",
     "skin": "Joining the skin",
 }
 
