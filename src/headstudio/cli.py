@@ -300,7 +300,18 @@ def wrinkle(
     ] = None,
     expression: ExpressionOption = None,
     wrinkles: Annotated[bool, typer.Option("--wrinkles/--no-wrinkles", help="With its wrinkles, or smooth.")] = True,
-    out: Annotated[Path, typer.Option(help="A picture (.png) or the posed mesh: .obj, .ply, .glb")] = Path("face.png"),
+    compare: Annotated[
+        Path | None, typer.Option(metavar="SCAN", help="Tell how far the face is from a scan of the same head.")
+    ] = None,
+    fit: Annotated[bool, typer.Option("--fit", help="With --compare: move and size furrows to the scan.")] = False,
+    infer: Annotated[bool, typer.Option("--infer", help="Propose furrows from how the skin shrinks.")] = False,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            help="A picture (.png, face.png if not said) or the posed mesh (.obj, .ply, .glb);"
+            " with --fit or --infer a project (.headstudio) or furrows (.json)."
+        ),
+    ] = None,
     size: SizeOption = "512",
     view: ViewOption = None,
     head: HeadOption = None,
@@ -313,7 +324,38 @@ def wrinkle(
 
     document = open_document(project, set_ or (), head_source=head_source(head))
     document = with_face(document, preset, expression or (), wrinkles)
-    wrinkle(choose_view(document, view), out, parse_size(size), framed=project is None)
+    if compare is not None or fit:
+        from .commands.compare_scan import compare_scan
+
+        if compare is None:
+            raise typer.BadParameter("--fit needs a scan: --compare SCAN")
+        compare_scan(document, compare, fit, out)
+        return
+    wrinkle(choose_view(document, view), out or Path("face.png"), parse_size(size), framed=project is None)
+
+
+@command()
+def limb(
+    which: Annotated[str, typer.Argument(metavar="LIMB", help="hand, arm, foot, or a rigged hand, FILE.glb.")] = "hand",
+    pose: Annotated[str, typer.Option(help="rest, relaxed, open, fist, point or pinch.")] = "relaxed",
+    age: Annotated[
+        float, typer.Option(min=0, max=1, help="0 young, 1 old: shape, and depth of the joints' lines.")
+    ] = 0.5,
+    wrinkles: Annotated[bool, typer.Option("--wrinkles/--no-wrinkles", help="With its wrinkles, or smooth.")] = True,
+    out: Annotated[Path, typer.Option(help="The picture, a PNG.")] = Path("limb.png"),
+    size: SizeOption = "512",
+    view: ViewOption = None,
+    set_: SetOption = None,
+) -> None:
+    """Show a hand, an arm or a foot with its wrinkles."""
+    from .commands.documents import choose_view, open_document
+    from .commands.limb import limb
+    from .commands.pictures import parse_size
+    from .params import assign
+    from .wrinkle.hand_settings import HandSettings
+
+    document = choose_view(open_document(None, set_ or (), head_age=age), view)
+    limb(document, which, assign(HandSettings(), {"pose": pose}), wrinkles, parse_size(size), out)
 
 
 @command()

@@ -61,3 +61,26 @@ def test_what_cannot_be_is_one_line(headstudio, words, complaint):
     assert ran.status == 2
     assert complaint in ran.complaint
     assert len(ran.complaint.strip().splitlines()) == 1
+
+
+def test_limbs_with_and_without_wrinkles(headstudio):
+    small = ("--size", 96, "--set", "fine.texture_size=128")
+    for name, more in (("with", ()), ("without", ("--no-wrinkles",))):
+        ran = headstudio("limb", "foot", *small, *more, "--out", f"{name}.png")
+        assert ran.status == 0, ran.complaint
+    assert pixels("with.png").shape == (96, 96, 3)
+    assert 0.01 < np.abs(pixels("with.png") - pixels("without.png")).mean() < 10
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (("limb", "ear"), "a limb is hand, arm, foot"),
+        (("limb", "--pose", "wave"), "pose"),
+        (("limb", "no.glb"), "no.glb"),
+    ],
+)
+def test_limbs_that_are_none(headstudio, words, complaint):
+    ran = headstudio(*words)
+    assert ran.status == 2
+    assert complaint in ran.complaint

@@ -59,6 +59,8 @@ def foreseen(error: BaseException) -> bool:
     from ..scene.project import ProjectError
     from ..scene.take import TakeError
     from ..wisp.adopt import AdoptError
+    from ..wrinkle.alignment import ScanError
+    from ..wrinkle.projection import TextureMapError
 
     own = (
         HeadError
@@ -69,6 +71,8 @@ def foreseen(error: BaseException) -> bool:
         | FilmError
         | HairFileError
         | AdoptError
+        | TextureMapError
+        | ScanError
         | RenderError
     )
     return isinstance(error, OSError | own)

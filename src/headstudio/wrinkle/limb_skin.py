@@ -16,7 +16,7 @@ from .body_part import extract, split_at_seams
 from .fine_guides import limb_guides
 from .fine_settings import FineSettings
 from .fine_wrinkles import FineWrinkles, grow_fine_wrinkles
-from .mapping import map_to_texture
+from .mapping import own_coordinates
 from .shape import amplitude
 from .texture_map import TextureMap
 from .tissue import TissueLift
@@ -68,24 +68,27 @@ class PosedLimb:
     expansion: Floats
 
 
-def grow_limb_skin(limb: TriangleMesh, settings: FineSettings, along: Floats, bare: Floats | None = None) -> LimbSkin:
+def grow_limb_skin(
+    limb: TriangleMesh, settings: FineSettings, along: Floats, bare: Floats | None = None, *, known_good: bool = False
+) -> LimbSkin:
     """The skin of ``limb`` at rest, with fine wrinkles on the largest piece of its map.
 
-    along, bare: directions of the limb and out of its palm or sole, (3,), see ``limb_guides``. Raises ValueError for a mesh
+    along, bare: directions of the limb and out of its palm or sole, (3,), see ``limb_guides``. known_good: its map is a
+    finer one of a map that is one to one. Raises ValueError for a mesh
     without texture coordinates, TextureMapError for some that are not one to one.
     """
     opened = split_at_seams(limb)
     piece = face_components(opened.mesh.faces)
     largest = np.flatnonzero(piece == np.bincount(piece, opened.mesh.face_areas).argmax())
     part = extract(opened.mesh, largest)
-    texture_map = _filling_the_square(part.mesh)
+    texture_map = filling_the_square(part.mesh, known_good=known_good)
     fine = grow_fine_wrinkles(texture_map, settings, limb_guides(texture_map, along, bare)) if settings.on else None
     uv = np.zeros((len(opened.vertices), 2))
     uv[part.vertices] = texture_map.uv
     return LimbSkin(limb, opened.mesh, opened.vertices, part.vertices, uv, fine, TissueLift(limb, spread=0.0))
 
 
-def _filling_the_square(mesh: TriangleMesh) -> TextureMap:
+def filling_the_square(mesh: TriangleMesh, *, known_good: bool = False) -> TextureMap:
     """The mesh's own map, scaled evenly so that it fills the unit square. Raises TextureMapError."""
     corners = mesh.corner_uv
     if corners is None:
@@ -93,4 +96,4 @@ def _filling_the_square(mesh: TriangleMesh) -> TextureMap:
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     scale = (1.0 - 2.0 * _MARGIN) / (high - low).max()
     placed = 0.5 + scale * (corners - 0.5 * (low + high))
-    return map_to_texture(TriangleMesh(mesh.vertices, mesh.faces, placed), "uv")
+    return own_coordinates(TriangleMesh(mesh.vertices, mesh.faces, placed), known_good=known_good)

@@ -47,7 +47,7 @@ def map_to_texture(
     if not len(mesh.faces):
         raise TextureMapError("this part of the body has no triangles")
     if method == "uv":
-        return _own_coordinates(mesh)
+        return own_coordinates(mesh)
     if face_components(mesh.faces).max() > 0:
         raise TextureMapError("this part of the body is in several pieces; map each by itself")
     layout = project_on_plane(mesh, toward) if method == "planar" else roll_off_cylinder(mesh, axis, along)
@@ -107,7 +107,11 @@ def _fitted(mesh: TriangleMesh, layout: Layout, note: str) -> TextureMap:
     return _texture_map(mesh, uv, corners, wrapped=layout.period > 0, note=note)
 
 
-def _own_coordinates(mesh: TriangleMesh) -> TextureMap:
+def own_coordinates(mesh: TriangleMesh, *, known_good: bool = False) -> TextureMap:
+    """The map that a mesh brings with it; ``known_good``: from one that was found to be one to one, and not looked at again.
+
+    Raises TextureMapError for coordinates that are missing, cut, outside the unit square or not one to one.
+    """
     if mesh.corner_uv is None:
         raise TextureMapError("this mesh has no texture coordinates of its own")
     uv = np.empty((len(mesh.vertices), 2))
@@ -117,7 +121,7 @@ def _own_coordinates(mesh: TriangleMesh) -> TextureMap:
         raise TextureMapError(f"the mesh's own texture coordinates are cut at {cut:,} triangles; split it at its seams")
     if uv.min() < 0 or uv.max() > 1:
         raise TextureMapError("the mesh's own texture coordinates leave the unit square")
-    trouble = why_not_one_to_one(mesh, Layout(uv, np.zeros_like(mesh.faces)))
+    trouble = "" if known_good else why_not_one_to_one(mesh, Layout(uv, np.zeros_like(mesh.faces)))
     if trouble:
         raise TextureMapError(f"the mesh's own texture coordinates are not one to one: {trouble}")
     uv = np.minimum(uv, np.nextafter(1.0, 0.0))
