@@ -40,6 +40,8 @@ def conform(
     """
     faces = _faces_near(refined, layout, furrow)
     near = np.unique(refined.faces[faces])
+    # On the border of the map a vertex may be at home in a triangle beyond it, where nothing is known.
+    near = near[layout.mapped[refined.home[near]]]
     beside = furrow.beside(layout.uv(refined, near), layout.metrics(refined, near))
     uv = np.full((len(fixed), 2), np.nan)
     uv[near] = furrow.whole(layout.uv(refined, near))

@@ -1,0 +1,165 @@
+"""``headstudio wrinkle --compare``: how near a head's wrinkles come to a scan of it, and furrows fitted to the scan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from rich.table import Table
+from scipy.spatial import cKDTree
+
+from ..head.from_file import head_from_mesh
+from ..head.head import Head, HeadError
+from ..head.mesh import Floats, TriangleMesh
+from ..head.read import read_mesh
+from ..head.repair import repair
+from ..io.faces import write_furrows
+from ..params import ParameterError, assign
+from ..scene.builder import Builder
+from ..scene.document import Document
+from ..scene.project import save_project
+from ..wrinkle.alignment import Alignment, align, moved, plausible_units
+from ..wrinkle.comparison import Comparison, Distances, around, compare
+from ..wrinkle.face_creases import face_layout
+from ..wrinkle.fitting import change_of_shape
+from ..wrinkle.scan_fit import fit_face
+from ..wrinkle.scan_heights import ScanHeights, SkinTexels
+from .reporting import counting, results, say, working
+
+# Where the scan departs from the smooth skin by more than this [m], it is wrinkled.
+_WRINKLED = 5e-4
+_MM = 1e3
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """Distances [m] by the name of where and what is measured: without wrinkles and with them."""
+
+    rows: dict[str, tuple[Distances, Distances]]
+    shape: float
+
+
+def read_scan(path: Path, head: Head) -> tuple[TriangleMesh, Alignment]:
+    """A scan as it lies on a head [m], and how it was laid there. Raises HeadError, ScanError."""
+    mesh, repairs = repair(read_mesh(path))
+    starts = plausible_units(mesh)
+    if head.from_file is not None:
+        starts.insert(0, head.from_file)
+    try:
+        whole = head_from_mesh(mesh, repairs, path)
+    except HeadError:
+        whole = None
+    if whole is not None and whole.from_file is not None:
+        starts.append(whole.from_file)
+    alignment = align(mesh, head.skin, starts)
+    return moved(mesh, alignment.matrix), alignment
+
+
+def measure(document: Document, scan: TriangleMesh, builder: Builder) -> Report:
+    """Distances between a scan [m] and the face of a document as it is posed, without its wrinkles and with them.
+
+    Raises ScanError when they do not overlap.
+    """
+    states = []
+    for shown in (False, True):
+        skin = builder.skin(assign(document, {"wrinkle.shown": shown}))
+        living = skin.at(document.face)
+        mesh = skin.creases.mesh(living.skin)
+        states.append((mesh, compare(mesh, scan, skin.surface.mapped > 0.5)))
+    texels = SkinTexels.of(face_layout(builder.head(document.head)))
+    heights = ScanHeights.measured(texels, scan)
+    shape = change_of_shape(heights)
+    nearest = cKDTree(texels.positions)
+
+    smooth = [
+        _at_both(mesh, scan, comparison, lambda points: shape[nearest.query(points)[1]]) for mesh, comparison in states
+    ]
+    both = [np.concatenate([comparison.to_scan, comparison.to_skin]) for _, comparison in states]
+    bare, comparison = states[0]
+    departs = np.abs(comparison.to_skin - smooth[0][len(comparison.to_scan) :]) > _WRINKLED
+    wrinkled = scan.vertices[comparison.scan_vertices[departs]]
+    rows = {"the whole overlap": (Distances.of(both[0]), Distances.of(both[1]))}
+    there = [_at_both(mesh, scan, each, lambda points: around(points, wrinkled)) for mesh, each in states]
+    if all(mask.any() for mask in there):
+        rows["around its wrinkles"] = (Distances.of(both[0][there[0]]), Distances.of(both[1][there[1]]))
+    rows["the whole overlap, smooth change of shape removed"] = (
+        Distances.of(both[0] - smooth[0]),
+        Distances.of(both[1] - smooth[1]),
+    )
+    if all(mask.any() for mask in there):
+        rows["around its wrinkles, smooth change of shape removed"] = (
+            Distances.of((both[0] - smooth[0])[there[0]]),
+            Distances.of((both[1] - smooth[1])[there[1]]),
+        )
+    return Report(rows, float(np.sqrt(np.mean(shape[heights.covered] ** 2))))
+
+
+def fitted(document: Document, scan: TriangleMesh, builder: Builder) -> tuple[Document, Floats, str]:
+    """The document with its furrows moved and sized to a scan [m]; how the scan was moved, (4, 4); and what was done."""
+    wrinkle = document.wrinkle
+    before = [replace(furrow, depth=min(wrinkle.strength * furrow.depth, 0.015)) for furrow in wrinkle.furrow_set()]
+    steps = 100
+    with counting("fitting furrows", steps) as bar:
+
+        def progress(what: str, part: float) -> None:
+            bar.update(bar.task_ids[0], completed=steps * part, description=what)
+
+        fit = fit_face(builder.head(document.head), scan, before, progress)
+    changed = replace(wrinkle, furrows=fit.furrows, strength=1.0, breadth=1.0, shown=True)
+    names = f": {', '.join(fit.moved)}" if fit.moved else ""
+    note = f"{fit.fitted} furrows in {len(fit.fit.grooves)} grooves, {len(fit.moved)} of them moved there{names}"
+    return replace(document, wrinkle=changed), fit.fit.motion, note
+
+
+def compare_scan(document: Document, path: Path, fit: bool, out: Path | None) -> None:
+    """Report distances to a scan; with ``fit``, those of fitted furrows, kept in ``out`` (.headstudio or .json).
+
+    Raises HeadError, ParameterError, ScanError, OSError.
+    """
+    if out is not None and (not fit or out.suffix.lower() not in (".headstudio", ".json")):
+        raise ParameterError(
+            f"fitted furrows (--fit) are kept in a project (.headstudio) or a furrow set (.json); got {out.name!r}"
+        )
+    builder = Builder()
+    with working("laying the scan on the head"):
+        scan, alignment = read_scan(path, builder.head(document.head))
+    if fit:
+        document, motion, note = fitted(document, scan, builder)
+        scan = moved(scan, motion)
+        say(note)
+    with working("measuring"):
+        report = measure(document, scan, builder)
+    results.print(_table(report))
+    say(f"smooth change of shape: {_MM * report.shape:.2f} mm RMS")
+    if out is None:
+        return
+    if out.suffix.lower() == ".json":
+        write_furrows(document.wrinkle.furrows, out)
+    else:
+        save_project(document, out)
+    say(str(out))
+
+
+def _at_both(mesh: TriangleMesh, scan: TriangleMesh, comparison: Comparison, of_points) -> np.ndarray:
+    """Something of the points that a comparison measures at, on the mesh and on the scan, (k + l,)."""
+    return np.concatenate(
+        [of_points(mesh.vertices[comparison.vertices]), of_points(scan.vertices[comparison.scan_vertices])]
+    )
+
+
+def _table(report: Report) -> Table:
+    table = Table(box=None, pad_edge=False)
+    table.add_column("distance to the scan [mm]")
+    table.add_column("wrinkles")
+    for name in ("mean", "RMS", "max"):
+        table.add_column(name, justify="right")
+    table.add_column("less", justify="right")
+    for where, (without, with_) in report.rows.items():
+        table.add_row(where, "without", *_figures(without), "")
+        table.add_row("", "with", *_figures(with_), f"{1 - with_.mean / without.mean:.0%}")
+    return table
+
+
+def _figures(distances: Distances) -> list[str]:
+    return [f"{_MM * value:.3f}" for value in (distances.mean, distances.rms, distances.largest)]
