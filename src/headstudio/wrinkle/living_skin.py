@@ -107,6 +107,7 @@ class Skin:
         self.creases = creases
         self.surface = surface
         self._thickness: tuple[object, Floats] | None = None
+        self._preset: tuple[str, Floats] | None = None
 
     def at(self, settings: FaceSettings) -> LivingSkin:
         """The skin with the face as its sliders are set."""
@@ -123,9 +124,16 @@ class Skin:
         """Thickness of the tissue under every vertex at rest [m], (n,); found again only when it changes."""
         wanted = (settings.tissue, settings.painted_tissue)
         if self._thickness is None or self._thickness[0] != wanted:
-            thickness = thickness_of(self.face.head, settings.tissue)
+            thickness = self._named_tissue(settings.tissue)
             if settings.painted_tissue is not None:
+                thickness = thickness.copy()
                 layout = self.surface.bed.layout
                 thickness[layout.part.vertices] = painted_thickness(settings.painted_tissue, layout.texture_map)
             self._thickness = (wanted, thickness)
         return self._thickness[1]
+
+    def _named_tissue(self, preset: str) -> Floats:
+        """That of a preset, kept: a brush asks for it with every move, and rays under the skin take their time."""
+        if self._preset is None or self._preset[0] != preset:
+            self._preset = (preset, thickness_of(self.face.head, preset))
+        return self._preset[1]

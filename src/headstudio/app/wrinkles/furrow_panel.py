@@ -7,13 +7,17 @@ from dataclasses import replace
 from imgui_bundle import icons_fontawesome_6 as icons
 from imgui_bundle import imgui
 
+from ...params import parameters_of
+from ...wrinkle.furrow import Furrow
 from .. import theme
 from ..parameter_rows import ParameterRows
 from ..ui import Ui
 from .furrow_set import FurrowSet
 
 AGES = {"Child": 0.05, "Young": 0.2, "Adult": 0.4, "Aged": 0.7, "Old": 1.0}
-HEIGHT = 170.0
+HEIGHT = 150.0
+WORDS = tuple(name for name, declared in parameters_of(Furrow).items() if declared.kind == "text")
+SHAPE = tuple(name for name in parameters_of(Furrow) if name not in WORDS)
 LARGE = ("shown", "strength", "breadth", "fineness", "self_contact", "shrinkage")
 
 
@@ -98,7 +102,8 @@ class FurrowPanel:
     def _draw_chosen(self, ui: Ui, number: int) -> None:
         furrow = self._set.furrows[number]
         with ui.within("Furrow"):
-            edited = self.rows.item(ui, furrow)
+            # What shapes it comes before what it is called.
+            edited = self.rows.item(ui, self.rows.item(ui, furrow, SHAPE), WORDS)
             if edited != furrow:
                 self.rows.hold("Furrow")
                 self._set.put(number, edited, "Furrow")
