@@ -1,5 +1,7 @@
 import dataclasses
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -84,3 +86,14 @@ def test_a_style_of_one_s_own(tmp_path):
     hair = read_style(path).on(Document())
     assert hair.wisp.length == 0.3
     assert hair.styling.operations[0].place == (0.0, 1.2, 0.0)
+
+
+def test_every_style_has_its_line_and_its_picture_in_the_documentation():
+    docs = Path(__file__).parents[2] / "docs"
+    page = (docs / "styles.md").read_text()
+    rows = re.findall(r"^\| (.*) \| (.*) \| `headstudio style --preset (\S+) --out \S+` \|$", page, re.MULTILINE)
+    shown = {name: (title, description) for title, description, name in rows}
+    assert shown == {name: (load_style(name).title, load_style(name).description) for name in style_names()}
+    pictures = re.findall(r"\]\((pictures/\S+)\)", page)
+    assert len(pictures) >= 5
+    assert all((docs / picture).stat().st_size > 10_000 for picture in pictures)
