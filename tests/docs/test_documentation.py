@@ -33,6 +33,7 @@ SMALL = {
     "style": ["--size", "32", *FEW_STRANDS],
     "export": FEW_STRANDS,
     "wrinkle": ["--head", "mannequin", "--size", "32", "--set", "fine.texture_size=128"],
+    "limb": ["--size", "32", "--set", "fine.texture_size=128"],
     "bake": ["--head", "mannequin", "--size", "128"],
 }
 
