@@ -107,7 +107,7 @@ class Surroundings:
 
 
 # How often a point is pushed. Where the skin folds (behind an ear) the way out bends.
-_PUSHES = 8
+_PUSHES = 16
 
 
 def _signed_distances(body: TriangleMesh, grid: Grid) -> Floats:
