@@ -48,9 +48,7 @@ class Application:
             for editor in EDITORS
             if editor.steps is not None
         }
-        self._beside = {
-            editor.label: editor.beside(self.viewport) for editor in EDITORS if editor.beside is not None
-        }
+        self._beside = {editor.label: editor.beside(self.viewport) for editor in EDITORS if editor.beside is not None}
         self._timelines = {
             editor.label: editor.timeline(self.rows) for editor in EDITORS if editor.timeline is not None
         }

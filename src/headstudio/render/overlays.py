@@ -9,7 +9,6 @@ from ..head.mesh import Floats
 from ..scene.stage import Overlays
 from .context import load_program
 
-
 _SURFACE = moderngl.BLEND | moderngl.CULL_FACE | moderngl.DEPTH_TEST
 
 
