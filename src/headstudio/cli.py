@@ -309,7 +309,7 @@ def wrinkle(
         Path | None,
         typer.Option(
             help="A picture (.png, face.png if not said) or the posed mesh (.obj, .ply, .glb);"
-            " with --fit or --infer a project (.headstudio) or furrows (.json)."
+            " with --fit a project (.headstudio) or furrows (.json); with --infer any of these, or a picture."
         ),
     ] = None,
     size: SizeOption = "512",
@@ -330,6 +330,11 @@ def wrinkle(
         if compare is None:
             raise typer.BadParameter("--fit needs a scan: --compare SCAN")
         compare_scan(document, compare, fit, out)
+        return
+    if infer:
+        from .commands.infer_furrows import infer_furrows
+
+        infer_furrows(choose_view(document, view), out or Path("proposals.png"), parse_size(size))
         return
     wrinkle(choose_view(document, view), out or Path("face.png"), parse_size(size), framed=project is None)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -14,17 +15,16 @@ from ..head.head import Head, HeadError
 from ..head.mesh import Floats, TriangleMesh
 from ..head.read import read_mesh
 from ..head.repair import repair
-from ..io.faces import write_furrows
 from ..params import ParameterError, assign
 from ..scene.builder import Builder
 from ..scene.document import Document
-from ..scene.project import save_project
 from ..wrinkle.alignment import Alignment, align, moved, plausible_units
 from ..wrinkle.comparison import Comparison, Distances, around, compare
 from ..wrinkle.face_creases import face_layout
 from ..wrinkle.fitting import change_of_shape
 from ..wrinkle.scan_fit import fit_face
 from ..wrinkle.scan_heights import ScanHeights, SkinTexels
+from .furrow_files import FURROW_SUFFIXES, keep_furrows
 from .reporting import counting, results, say, working
 
 # Where the scan departs from the smooth skin by more than this [m], it is wrinkled.
@@ -56,9 +56,10 @@ def read_scan(path: Path, head: Head) -> tuple[TriangleMesh, Alignment]:
     return moved(mesh, alignment.matrix), alignment
 
 
-def measure(document: Document, scan: TriangleMesh, builder: Builder) -> Report:
+def measure(document: Document, scan: TriangleMesh, builder: Builder, laid: Floats | None = None) -> Report:
     """Distances between a scan [m] and the face of a document as it is posed, without its wrinkles and with them.
 
+    laid: how the scan is moved to lie on the wrinkled skin, (4, 4), each skin having the alignment that is best for it.
     Raises ScanError when they do not overlap.
     """
     states = []
@@ -66,37 +67,36 @@ def measure(document: Document, scan: TriangleMesh, builder: Builder) -> Report:
         skin = builder.skin(assign(document, {"wrinkle.shown": shown}))
         living = skin.at(document.face)
         mesh = skin.creases.mesh(living.skin)
-        states.append((mesh, compare(mesh, scan, skin.surface.mapped > 0.5)))
+        there = scan if laid is None or not shown else moved(scan, laid)
+        states.append((mesh, there, compare(mesh, there, skin.surface.mapped > 0.5)))
     texels = SkinTexels.of(face_layout(builder.head(document.head)))
     heights = ScanHeights.measured(texels, scan)
     shape = change_of_shape(heights)
     nearest = cKDTree(texels.positions)
 
-    smooth = [
-        _at_both(mesh, scan, comparison, lambda points: shape[nearest.query(points)[1]]) for mesh, comparison in states
-    ]
-    both = [np.concatenate([comparison.to_scan, comparison.to_skin]) for _, comparison in states]
-    bare, comparison = states[0]
+    smooth = [_at_both(mesh, at, each, lambda points: shape[nearest.query(points)[1]]) for mesh, at, each in states]
+    both = [np.concatenate([comparison.to_scan, comparison.to_skin]) for _, _, comparison in states]
+    comparison = states[0][2]
     departs = np.abs(comparison.to_skin - smooth[0][len(comparison.to_scan) :]) > _WRINKLED
     wrinkled = scan.vertices[comparison.scan_vertices[departs]]
     rows = {"the whole overlap": (Distances.of(both[0]), Distances.of(both[1]))}
-    there = [_at_both(mesh, scan, each, lambda points: around(points, wrinkled)) for mesh, each in states]
-    if all(mask.any() for mask in there):
-        rows["around its wrinkles"] = (Distances.of(both[0][there[0]]), Distances.of(both[1][there[1]]))
+    close = [_at_both(mesh, at, each, lambda points: around(points, wrinkled)) for mesh, at, each in states]
+    if all(mask.any() for mask in close):
+        rows["around its wrinkles"] = (Distances.of(both[0][close[0]]), Distances.of(both[1][close[1]]))
     rows["the whole overlap, smooth change of shape removed"] = (
         Distances.of(both[0] - smooth[0]),
         Distances.of(both[1] - smooth[1]),
     )
-    if all(mask.any() for mask in there):
+    if all(mask.any() for mask in close):
         rows["around its wrinkles, smooth change of shape removed"] = (
-            Distances.of((both[0] - smooth[0])[there[0]]),
-            Distances.of((both[1] - smooth[1])[there[1]]),
+            Distances.of((both[0] - smooth[0])[close[0]]),
+            Distances.of((both[1] - smooth[1])[close[1]]),
         )
     return Report(rows, float(np.sqrt(np.mean(shape[heights.covered] ** 2))))
 
 
 def fitted(document: Document, scan: TriangleMesh, builder: Builder) -> tuple[Document, Floats, str]:
-    """The document with its furrows moved and sized to a scan [m]; how the scan was moved, (4, 4); and what was done."""
+    """The document with its furrows moved and sized to a scan [m], how the scan then lies best on it, (4, 4), and a note."""
     wrinkle = document.wrinkle
     before = [replace(furrow, depth=min(wrinkle.strength * furrow.depth, 0.015)) for furrow in wrinkle.furrow_set()]
     steps = 100
@@ -117,31 +117,28 @@ def compare_scan(document: Document, path: Path, fit: bool, out: Path | None) ->
 
     Raises HeadError, ParameterError, ScanError, OSError.
     """
-    if out is not None and (not fit or out.suffix.lower() not in (".headstudio", ".json")):
+    if out is not None and (not fit or out.suffix.lower() not in FURROW_SUFFIXES):
         raise ParameterError(
             f"fitted furrows (--fit) are kept in a project (.headstudio) or a furrow set (.json); got {out.name!r}"
         )
     builder = Builder()
     with working("laying the scan on the head"):
-        scan, alignment = read_scan(path, builder.head(document.head))
+        scan, _ = read_scan(path, builder.head(document.head))
+    laid = None
     if fit:
-        document, motion, note = fitted(document, scan, builder)
-        scan = moved(scan, motion)
+        document, laid, note = fitted(document, scan, builder)
         say(note)
     with working("measuring"):
-        report = measure(document, scan, builder)
+        report = measure(document, scan, builder, laid)
     results.print(_table(report))
     say(f"smooth change of shape: {_MM * report.shape:.2f} mm RMS")
-    if out is None:
-        return
-    if out.suffix.lower() == ".json":
-        write_furrows(document.wrinkle.furrows, out)
-    else:
-        save_project(document, out)
-    say(str(out))
+    if out is not None:
+        keep_furrows(document, out)
 
 
-def _at_both(mesh: TriangleMesh, scan: TriangleMesh, comparison: Comparison, of_points) -> np.ndarray:
+def _at_both(
+    mesh: TriangleMesh, scan: TriangleMesh, comparison: Comparison, of_points: Callable[[Floats], np.ndarray]
+) -> np.ndarray:
     """Something of the points that a comparison measures at, on the mesh and on the scan, (k + l,)."""
     return np.concatenate(
         [of_points(mesh.vertices[comparison.vertices]), of_points(scan.vertices[comparison.scan_vertices])]

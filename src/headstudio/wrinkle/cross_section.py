@@ -19,12 +19,14 @@ _FEWEST = 6
 _FEWEST_PLACES = 12
 # Where a groove is at least this part of its depth it shows its section.
 _WHOLE = 0.85
+# Within this [m] of the curve differences count so many times.
+_DENSE = (3e-3, 1.8)
 # Differences beyond this [m] count by their size, below by their square.
 _NOISE = 1e-4
 _POWER = 6.0
 # What one more unknown has to gain, as a part of the misfit.
 _WORTH = 0.02
-_DEPTH_PARTS, _WIDTHS_OF_STRAND, _FARTHEST_OFFSET = (5e-3, 6.0), (5e-4, 3.5e-3), 8e-3
+_DEPTH_PARTS, _WIDTHS_OF_STRAND, _FARTHEST_OFFSET = (5e-3, 6.0), (1.2e-3, 4e-3), 8e-3
 _ROUNDS = 60
 
 # Ways to begin: pairs (both sides of the curve) and single strands, each as (depth, width, offset) over d and w of the
@@ -38,7 +40,7 @@ _BEGINNINGS: tuple[tuple[tuple[float, float, float], ...], ...] = (
     ((0.8, 0.6, 0.25), (0.2, 0.8, 1.2)),
     ((0.8, 0.6, 0.25), (0.15, 0.8, 2.0)),
 )
-# What lies lower all around is left to broader furrows, down to this part of the depth.
+# What lies lower all around does so by at most this part of the depth.
 _DEEPEST_BASE = 0.4
 
 
@@ -74,8 +76,14 @@ def cross_section(
     places, first, count = np.unique(place[order], return_index=True, return_counts=True)
     middle = first + count // 2
     enough = count >= _FEWEST
-    steepness = np.bincount(place - places[0], upright[kept])[places - places[0]] / count if len(places) else count
-    return CrossSection(places[enough] * _SPACING, height[kept][order][middle][enough], steepness[enough])
+    # The wrinkled mesh has more vertices at the floors of furrows: what they miss counts more.
+    steepness = np.zeros(len(places))
+    if len(places):
+        steepness = np.bincount(place - places[0], upright[kept])[places - places[0]] / count
+    at = np.asarray(places * _SPACING, dtype=np.float64)
+    distances = np.abs(at)
+    density = np.where(distances < _DENSE[0], _DENSE[1], 1.0)
+    return CrossSection(at[enough], height[kept][order][middle][enough], (density * steepness)[enough])
 
 
 def strands_for(section: CrossSection, strand: Strand) -> tuple[Strand, ...]:
@@ -108,7 +116,8 @@ def strands_for(section: CrossSection, strand: Strand) -> tuple[Strand, ...]:
                 max_nfev=_ROUNDS,
             ).x
         cost = float(np.sqrt(misfit(values) ** 2 + _NOISE**2).sum())
-        found.append((cost * (1.0 + _WORTH) ** sum(3 if pair else 2 for pair in pairs), _strands(values[:-1], pairs)))
+        unknowns = sum(3 if pair else 2 for pair in pairs)
+        found.append((cost * (1.0 + _WORTH) ** unknowns, _strands(values[:-1], pairs)))
     return min(found, key=lambda each: each[0])[1]
 
 
@@ -131,8 +140,8 @@ def _height(across: Floats, values: Floats, pairs: tuple[bool, ...]) -> Floats:
 
 
 def _strands(values: Floats, pairs: tuple[bool, ...]) -> tuple[Strand, ...]:
-    strands = []
-    for (depth, width, offset), pair in zip(values.reshape(-1, 3), pairs):
-        for side in (1.0, -1.0) if pair else (0.0,):
-            strands.append(Strand(float(side * offset), float(np.exp(depth)), float(np.exp(width))))
-    return tuple(strands)
+    return tuple(
+        Strand(float(side * offset), float(np.exp(depth)), float(np.exp(width)))
+        for (depth, width, offset), pair in zip(values.reshape(-1, 3), pairs)
+        for side in ((1.0, -1.0) if pair else (0.0,))
+    )

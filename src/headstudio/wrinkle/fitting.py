@@ -23,7 +23,7 @@ _SMOOTH, _SAME_SHAPE = 0.014, 2.5e-4
 # A valley stands out when it is so many times the noise deep, this deep [m] and this part of the deepest.
 _OVER_NOISE, _SHALLOWEST, _PART = 4.0, 2.5e-4, 0.07
 # A first curve passes this near the valley [m]. It ends where less than this part of the depth is left.
-_TOLERANCE, _ENDS = 6e-4, 0.25
+_TOLERANCE, _ENDS = 3e-4, 0.25
 # The sides of a valley are this many widths of the filter that found it away; a furrow's w is this part of that width.
 _SIDES, _WIDTH = 2.2, 1.2
 # Furrows that are shallower [m] or, end to end, shorter [m] than this are left out.
@@ -34,8 +34,11 @@ _DENT, _DENT_DEPTH, _DENTS = 4e-3, 1e-4, 6
 _WORTH, _BROAD = 0.004, 5e-3
 # Where sections are looked at, other grooves make at most this part of the depth; later on whatever they do.
 _CLEAR, _ANYWHERE = 0.12, np.inf
-# Steps for single furrows, again with those that were missed, and twice for furrows side by side.
-_STEPS = (5, 4, 8, 10)
+# The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
+_PIECE = 0.014
+# Sweeps for single furrows, again with those that were missed, and twice for furrows side by side.
+_STEPS = (3, 2, 5, 10)
+_SETTLED = 4e-3
 # Differences of this size [m] have half the say in what is a smooth change of shape.
 _ODD = 6e-4
 
@@ -44,9 +47,12 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True, eq=False)
 class FurrowFit:
-    """What was found. grooves: curves with their furrows. motion: how the scan was moved to lie better, (4, 4). smooth:
-    the smooth change of shape at every texel that was taken off the scan [m], (k,); zero where there is none. texels: of
-    the skin. left: heights that remain [m], (k,), nan where the scan is not."""
+    """What was found.
+
+    grooves: curves with their furrows. motion: how the scan was moved to lie better on them, (4, 4). smooth: the smooth
+    change of shape at every texel that was taken off the scan [m], (k,); zero where there is none. texels: of the skin.
+    left: heights that remain [m], (k,), nan where the scan is not.
+    """
 
     grooves: tuple[Groove, ...]
     motion: Floats
@@ -70,15 +76,15 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     progress("looking for valleys", 0.03)
     grooves = _first_grooves(raw.without(raw.low_pass(_SMOOTH, everywhere)), [])
     # As long as grooves are not fitted, the skin beside them tells.
-    model = GrooveFit(raw, grooves).model.height
+    model = GrooveFit(raw, grooves).height
     beside = np.where(np.abs(model) > _FAINT, 0.02, 1.0)
     smooth = _notable(change_of_shape(raw, model, beside), raw, beside)
     fit = GrooveFit(raw.without(smooth), grooves)
     _steps(fit, _STEPS[0], progress, "laying furrows", 0.06, 0.2)
 
-    smooth = _notable(change_of_shape(raw, fit.model.height), raw, beside)
+    smooth = _notable(change_of_shape(raw, fit.height), raw, beside)
     fit = _pruned(GrooveFit(raw.without(smooth), fit.grooves))
-    fit = fit.replaced([*fit.grooves, *_first_grooves(fit.heights.without(fit.model.height), fit.grooves)])
+    fit = fit.replaced([*fit.grooves, *_first_grooves(fit.heights.without(fit.height), fit.grooves)])
     _steps(fit, _STEPS[1], progress, "laying those that were missed", 0.2, 0.35)
 
     progress("matching their cross sections", 0.35)
@@ -92,7 +98,7 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     _steps(fit, _STEPS[3], progress, "moving and sizing them", 0.7, 1.0, rigid=True)
     fit = _pruned(fit)
     progress("done", 1.0)
-    return FurrowFit(fit.grooves, fit.motion, smooth, texels, fit.left)
+    return FurrowFit(tuple(fit.grooves), fit.motion, smooth, texels, fit.left)
 
 
 def _steps(
@@ -100,7 +106,10 @@ def _steps(
 ) -> None:
     for k in range(most):
         progress(what, start + (end - start) * k / most)
-        if fit.step(rigid) < 3e-3:
+        fell = fit.sweep()
+        if rigid:
+            fit.let_scan_move()
+        if fell < _SETTLED:
             break
 
 
@@ -114,7 +123,7 @@ def _first_grooves(heights: ScanHeights, known: Sequence[Groove]) -> list[Groove
 
 def _dents(fit: GrooveFit) -> list[Groove]:
     """Broad shallow furrows where the skin beside grooves lies lower than these leave it."""
-    left = fit.heights.without(fit.model.height)
+    left = fit.heights.without(fit.height)
     off = np.nan_to_num(left.height)
     smooth = left.low_pass(_DENT, 1.0 / (1.0 + (off / _ODD) ** 2))
     field = valley_field(replace(left, height=np.where(left.covered, smooth, np.nan)), DENTS)
@@ -126,7 +135,7 @@ def _dents(fit: GrooveFit) -> list[Groove]:
 def _first_groove(heights: ScanHeights, line: ValleyLine) -> Groove | None:
     """A furrow along a valley, without the ends where it has run out."""
     texels = heights.texels
-    places = ndimage.gaussian_filter1d(line.points, 2.0, axis=0, mode="nearest")
+    places = ndimage.gaussian_filter1d(line.points, 1.2, axis=0, mode="nearest")
     along = np.gradient(places, axis=0)
     aside = np.stack([-along[:, 1], along[:, 0]], axis=1)
     aside *= _SIDES * line.width / texels.metres / np.maximum(np.linalg.norm(aside, axis=1, keepdims=True), 1e-12)
@@ -184,20 +193,21 @@ def _side_by_side(fit: GrooveFit, clear: float) -> GrooveFit:
     """
     upright = uprightness(fit.heights)
     grooves = []
-    for bed in fit.model.beds:
+    for bed in fit.beds:
         strand = bed.groove.strands[0]
-        if len(bed.groove.strands) > 1 or strand.width > _BROAD:
-            grooves.append(bed.groove)
+        groove = bed.groove if strand.width > _BROAD else bed.groove.subdivided(_PIECE / bed.length)
+        if len(groove.strands) > 1 or strand.width > _BROAD:
+            grooves.append(groove)
             continue
         own = bed.heights()[0][0]
         section = cross_section(
             bed.across,
             fit.heights.height[bed.rows],
-            fit.model.height[bed.rows] - own,
+            fit.height[bed.rows] - own,
             bed.wholeness(strand.width),
             clear * strand.depth,
             strand,
             upright[bed.rows],
         )
-        grooves.append(replace(bed.groove, strands=strands_for(section, strand)))
+        grooves.append(replace(groove, strands=strands_for(section, strand)))
     return fit.replaced(grooves)

@@ -6,26 +6,29 @@ groove and a few parallel ones come close.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import NearestNDInterpolator
+from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
 from .bezier import BezierChain, fit_stroke
 from .furrow import Controls, Furrow
 from .laid_furrow import LaidFurrow, fade_length
 from .metric import perpendicular
+from .nearest import slid_to_nearest
 from .scan_heights import SkinTexels
 from .shape import REACH, bounded_shape, bounded_slope
 
 # Limits of what a fitted furrow may be [m].
-_DEPTHS, _WIDTHS, _TAPERS = (1e-5, 0.014), (5e-4, 0.016), (0.02, 0.5)
+_DEPTHS, _WIDTHS, _TAPERS = (1e-5, 0.014), (1.2e-3, 0.016), (0.02, 0.5)
 # In one step depth and width change by at most this factor's logarithm, places by so much [m].
 _LOG_STEP, _STEP = 0.4, 1.5e-3
 # Fitted furrows of a groove follow its curve within this [m].
 _TOLERANCE = 1e-4
+# Samples of each of its Bezier curves, to begin from where feet are looked for.
+_SAMPLES = 24
 _TINY = np.finfo(float).tiny
 
 
@@ -50,6 +53,18 @@ class Groove:
     def chain(self) -> BezierChain:
         """The curve."""
         return BezierChain(self.controls)
+
+    def subdivided(self, longest: float) -> Groove:
+        """The same with every Bezier curve halved that is longer than a part ``longest`` of the whole."""
+        t, places = self.chain.sampled(12)
+        steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
+        lengths = np.bincount(self.chain.split(0.5 * (t[1:] + t[:-1]))[0], steps)
+        pieces = [self.controls[:1]]
+        for k, length in enumerate(lengths):
+            quad = self.controls[3 * k : 3 * k + 4]
+            halves = _halved(quad) if length > longest * lengths.sum() else quad
+            pieces.append(halves[1:])
+        return replace(self, controls=np.concatenate(pieces))
 
     def furrows(self, texels: SkinTexels, name: str, region: str = "") -> list[Furrow]:
         """The furrows, all there at rest, with control points in texture space; the deepest carries the name."""
@@ -101,19 +116,22 @@ class GrooveBed:
         """near: the texels that may be within reach."""
         widest = max(strand.width for strand in groove.strands)
         farthest = max(abs(strand.offset) for strand in groove.strands)
-        laid = LaidFurrow(
-            Furrow(width=widest, controls=tuple((float(x), float(y)) for x, y in groove.controls)), texels.layout
-        )
+        laid = LaidFurrow(Furrow(controls=tuple((float(x), float(y)) for x, y in groove.controls)), texels.layout)
         self.groove = groove
         self.length = laid.length
-        g = texels.metrics[near]
-        beside = laid.beside(texels.uv[near], g)
-        kept = np.flatnonzero((beside.distance < REACH * widest + farthest) & beside.inside)
-        self.rows: Ints = near[kept]
-        t, g = beside.t[kept], g[kept]
-        self.across = beside.side[kept] * beside.distance[kept]
-        self.arc = laid.arc(t)
         chain = laid.chain
+        samples, places = chain.sampled(_SAMPLES)
+        at_samples = metrics.at(places)
+        # The nearest sample in space is close to the foot, which is then found on the curve.
+        _, first = cKDTree(laid.line_at(samples)).query(texels.positions[near])
+        mean = 0.5 * (texels.metrics[near] + at_samples[first])
+        uv = laid.whole(texels.uv[near])
+        found = slid_to_nearest(chain, uv, mean, samples[first])
+        kept = np.flatnonzero((found.distance < REACH * widest + farthest) & ~found.beyond)
+        self.rows: Ints = near[kept]
+        t, g = found.t[kept], texels.metrics[near[kept]]
+        self.across = found.side[kept] * found.distance[kept]
+        self.arc = laid.arc(t)
         tangent = chain.tangents(t)
         # The gradient of the distance in texture space, towards the left.
         turned = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
@@ -226,6 +244,9 @@ def _prolonged(controls: Floats, part: float) -> Floats:
     """A chain whose first curve begins ``part`` of its parameter earlier (below 0: later)."""
     u = float(np.clip(-part, -0.4, 0.4))
     a, b, c, d = controls[:4]
+    if u < 0:
+        # Straight on: a cubic would curl.
+        return np.concatenate([[a + 3 * u * (b - a), b + 1.5 * u * (b - a)], controls[2:]])
 
     def between(p: Floats, q: Floats) -> Floats:
         return (1 - u) * p + u * q
@@ -235,10 +256,12 @@ def _prolonged(controls: Floats, part: float) -> Floats:
     return np.concatenate([[between(abc, bcd), bcd, cd], controls[3:]])
 
 
+def _halved(quad: Floats) -> Floats:
+    """A cubic curve, (4, 2), as two, (7, 2): de Casteljau's construction."""
+    edges = 0.5 * (quad[1:] + quad[:-1])
+    inner = 0.5 * (edges[1:] + edges[:-1])
+    return np.stack([quad[0], edges[0], inner[0], 0.5 * (inner[0] + inner[1]), inner[1], edges[2], quad[3]])
+
+
 def _length(vectors: Floats, metrics: Floats) -> Floats:
     return np.sqrt(np.einsum("ki,kij,kj->k", vectors, metrics, vectors))
-
-
-def with_strands(groove: Groove, strands: Sequence[Strand]) -> Groove:
-    """The same curve with other furrows along it."""
-    return replace(groove, strands=tuple(strands))

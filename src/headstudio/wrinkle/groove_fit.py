@@ -2,16 +2,16 @@
 
 Heights over the skin are compared texel by texel. What is made small is the mean distance to the scan, not its square,
 so that a few places that do not belong (a lip, a scar, hair) do not pull: Gauss-Newton steps, damped after Levenberg and
-Marquardt, with weights found anew at each step (Holland and Welsch 1977). The scan may move a little with them.
+Marquardt, with weights found anew at each step (Holland and Welsch 1977). Grooves take their steps one after the other,
+each with a damping of its own, so that one that is hard to fit does not hold up the rest.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage, sparse
+from scipy import ndimage
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
@@ -24,84 +24,97 @@ from .shape import REACH
 _NOISE = 1e-4
 # Depths of strands that share a place are joined as in blending.py.
 _POWER = 6.0
-_DAMPING, _EASED, _STIFFER = 1e-2, 0.3, 5.0
+_NOTHING = 1e-9
+_DAMPING, _EASED, _STIFFER, _TRIES = 1e-2, 0.3, 6.0, 4
 # The scale of the unknowns in the damping: logarithms, places [m], turns [rad].
 _LOG, _PLACE, _TURN = 0.3, 1e-3, 0.01
 # Texels farther than this from a curve's samples, besides the reach of its strands, are not looked at [m].
 _SLACK = 5e-3
+# How much denser the vertices of the wrinkled mesh are within a distance of a furrow [m]. Distances are a mean over these.
+_DENSE = ((2e-3, 5.0), (5e-3, 2.0))
 
 
-@dataclass(frozen=True, eq=False)
-class GrooveModel:
-    """Heights that grooves make. height: of every texel [m], (k,). slopes: by all unknowns, (k, unknowns).
+class _Placed:
+    """A groove on the skin. raised, power: what it adds above the skin [m], and to the joined depth, at its rows."""
 
-    raised, powers: for every groove what it adds above the skin [m] and to the joined depth beneath, at its rows.
-    """
+    def __init__(self, bed: GrooveBed) -> None:
+        self.bed = bed
+        self.strands = bed.heights()
+        self.raised: Floats = np.sum([np.maximum(height, 0.0) for height, _ in self.strands], axis=0)
+        self.power: Floats = np.sum([np.maximum(-height, 0.0) ** _POWER for height, _ in self.strands], axis=0)
 
-    beds: tuple[GrooveBed, ...]
-    raised: tuple[Floats, ...]
-    powers: tuple[Floats, ...]
-    height: Floats
-    slopes: sparse.csr_array
+    def slopes(self, joined: Floats) -> Floats:
+        """Derivatives of the skin's height by the groove's unknowns, (i, unknowns). joined: the depth there [m], (i,)."""
+        slopes = np.zeros((len(self.bed.rows), self.bed.unknowns))
+        for height, derivative in self.strands:
+            # The joined depth is the larger but for rounding.
+            share = np.where(height < 0, -height / np.maximum(np.maximum(joined, -height), 1e-12), 1.0)
+            slopes += share[:, None] ** (_POWER - 1) * derivative
+        # Far out everything is so small that arithmetic gets slow.
+        return np.where(np.abs(slopes) < _NOTHING, 0.0, slopes)
 
 
 class GrooveFit:
-    """One scan, and grooves that approach it."""
+    """One scan, and grooves that approach it. motion: how the scan was moved towards them, (4, 4)."""
 
     def __init__(self, heights: ScanHeights, grooves: Sequence[Groove]) -> None:
         """heights: of the scan, with any smooth change of shape taken off."""
         self.heights = heights
-        self.grooves = tuple(grooves)
         self.texels = heights.texels
+        self.motion = np.eye(4)
         self._metrics = MetricField(self.texels)
         self._rows: Ints = np.flatnonzero(heights.covered)
-        self._tree = cKDTree(self.texels.positions[self._rows])
-        self._upright = uprightness(heights)[self._rows]
-        self._area = self.texels.area[self._rows] / self.texels.area[self._rows].sum()
-        self._damping = _DAMPING
-        self.motion = np.eye(4)
-        self.model = self._modelled(self.grooves)
-        self.cost = self._cost(self.model.height)
+        self._upright = uprightness(heights)
+        self._area = np.where(heights.covered, self.texels.area, 0.0)
+        self._area *= self._density(grooves)
+        self._area /= self._area.sum()
+        self._placed = [_Placed(self._bed(groove)) for groove in grooves]
+        self._damping = np.full(len(self._placed), _DAMPING)
+        self._raised, self._power = np.zeros((2, len(heights.height)))
+        for placed in self._placed:
+            self._raised[placed.bed.rows] += placed.raised
+            self._power[placed.bed.rows] += placed.power
 
-    def step(self, rigid: bool = True) -> float:
-        """One step that does not raise the mean distance; returns by which part it fell."""
-        left = self._left(self.model.height)
-        weight = self._area * self._upright**2 / np.sqrt((left * self._upright) ** 2 + _NOISE**2)
-        columns = self.model.slopes[self._rows]
-        scales = self._scales()
-        if rigid:
-            columns = sparse.hstack([columns, sparse.csr_array(self._rigid_slopes())]).tocsr()
-            scales = np.concatenate([scales, np.full(3, _PLACE), np.full(3, _TURN)])
-        columns = sparse.csr_array(columns * scales)
-        weighted = sparse.csr_array(columns * weight[:, None])
-        normal = (columns.T @ weighted).toarray()
-        pull = weighted.T @ left
-        size = np.trace(normal) / len(normal)
+    @property
+    def beds(self) -> list[GrooveBed]:
+        """The grooves on the skin."""
+        return [placed.bed for placed in self._placed]
+
+    @property
+    def grooves(self) -> list[Groove]:
+        """The grooves as they are now."""
+        return [bed.groove for bed in self.beds]
+
+    @property
+    def height(self) -> Floats:
+        """What the grooves make of the skin [m], (k,)."""
+        return self._raised - np.maximum(self._power, 0.0) ** (1 / _POWER)
+
+    @property
+    def left(self) -> Floats:
+        """What they leave of the heights of the scan [m], (k,); nan where the scan is not."""
+        return self.heights.height - self.height
+
+    @property
+    def cost(self) -> float:
+        """Mean distance to the scan over what it covers, noise counted in [m]."""
+        return self._cost(self._rows, self.height[self._rows])
+
+    def sweep(self, steps: int = 2) -> float:
+        """Let every groove take some steps; the mean distance does not rise. Returns by which part it fell."""
         before = self.cost
-        for _ in range(6):
-            # The steps are those of the scaled unknowns.
-            damped = normal + self._damping * (np.diag(np.diag(normal)) + 0.02 * size * np.eye(len(normal)))
-            change = scales * np.linalg.solve(damped, pull)
-            if self._accept(change, rigid):
-                self._damping *= _EASED
-                return 1.0 - self.cost / before
-            self._damping *= _STIFFER
-        return 0.0
+        for k in range(len(self._placed)):
+            self._improve(k, steps)
+        return 1.0 - self.cost / before
 
     def worth(self) -> Floats:
         """By which part the mean distance would rise without each groove, (grooves,)."""
-        model = self.model
-        raised, powers = np.zeros((2, len(model.height)))
-        for bed, up, power in zip(model.beds, model.raised, model.powers):
-            raised[bed.rows] += up
-            powers[bed.rows] += power
-        costs = []
-        for bed, up, power in zip(model.beds, model.raised, model.powers):
-            height = model.height.copy()
-            depth = np.maximum(powers[bed.rows] - power, 0.0) ** (1 / _POWER)
-            height[bed.rows] = raised[bed.rows] - up - depth
-            costs.append(self._cost(height))
-        return np.array(costs) / self.cost - 1.0
+        cost, rises = self.cost, []
+        for placed in self._placed:
+            rows = placed.bed.rows
+            without = self._height(self._raised[rows] - placed.raised, self._power[rows] - placed.power)
+            rises.append(self._cost(rows, without) - self._cost(rows, self.height[rows]))
+        return np.array(rises) / cost
 
     def replaced(self, grooves: Sequence[Groove]) -> GrooveFit:
         """A fit of other grooves to the same scan where it is now."""
@@ -109,85 +122,99 @@ class GrooveFit:
         fit.motion = self.motion
         return fit
 
-    @property
-    def left(self) -> Floats:
-        """What the grooves leave of the heights [m], (k,); nan where the scan is not."""
-        return self.heights.height - self.model.height
+    def let_scan_move(self) -> None:
+        """Lay the scan better on what the grooves make: one rigid step, if it brings both nearer."""
+        left = self.left[self._rows]
+        points, normals = self.texels.positions[self._rows], self.texels.normals[self._rows]
+        scales = np.repeat([_PLACE, _TURN], 3)
+        rises = np.concatenate([normals, np.cross(points, normals)], axis=1)
+        normal, pull = _equations(rises * scales, -left, self._weights(self._rows, left))
+        twist = scales * _step(normal, pull, _DAMPING)
+        before, heights = self.cost, self.heights
+        rise = np.zeros(len(heights.height))
+        rise[self._rows] = rises @ twist
+        self.heights = heights.without(-rise)
+        if self.cost >= before:
+            self.heights = heights
+            return
+        step = np.eye(4)
+        step[:3, :3], step[:3, 3] = Rotation.from_rotvec(twist[3:]).as_matrix(), twist[:3]
+        self.motion = step @ self.motion
 
-    def _accept(self, change: Floats, rigid: bool) -> bool:
-        count = len(change) - 6 if rigid else len(change)
-        ends = np.cumsum([0, *(bed.unknowns for bed in self.model.beds)])
-        moved = tuple(bed.moved(change[a:b]) for bed, a, b in zip(self.model.beds, ends, ends[1:]))
-        heights = self.heights
-        if rigid:
-            shift = np.zeros(len(heights.height))
-            shift[self._rows] = self._rigid_slopes() @ change[count:]
-            heights = heights.without(shift)
-        model = self._modelled(moved)
-        cost = self._cost(model.height, heights)
-        if cost >= self.cost:
-            return False
-        self.grooves, self.model, self.cost, self.heights = moved, model, cost, heights
-        if rigid:
-            self.motion = _motion(-change[count:]) @ self.motion
-        return True
+    def _improve(self, k: int, steps: int) -> None:
+        placed = self._placed[k]
+        self._raised[placed.bed.rows] -= placed.raised
+        self._power[placed.bed.rows] -= placed.power
+        near = self._near(placed.bed.groove)
+        cost = self._cost_with(placed, near)
+        for _ in range(steps):
+            bed = placed.bed
+            joined = np.maximum(self._power[bed.rows] + placed.power, 0.0) ** (1 / _POWER)
+            left = self.heights.height[bed.rows] - (self._raised[bed.rows] + placed.raised - joined)
+            scales = np.concatenate(
+                [np.full(len(bed.free) + 2, _PLACE), [_LOG], np.tile([_LOG, _LOG, _PLACE], len(bed.groove.strands))]
+            )
+            normal, pull = _equations(placed.slopes(joined) * scales, left, self._weights(bed.rows, left))
+            for _ in range(_TRIES):
+                moved = bed.moved(scales * _step(normal, pull, self._damping[k]))
+                tried = _Placed(GrooveBed(moved, self.texels, self._metrics, near))
+                new_cost = self._cost_with(tried, near)
+                if new_cost < cost:
+                    self._damping[k] = max(_EASED * self._damping[k], 1e-4)
+                    break
+                self._damping[k] = min(_STIFFER * self._damping[k], 1e3)
+            else:
+                break
+            placed, cost = tried, new_cost
+        self._raised[placed.bed.rows] += placed.raised
+        self._power[placed.bed.rows] += placed.power
+        self._placed[k] = placed
 
-    def _modelled(self, grooves: Sequence[Groove]) -> GrooveModel:
-        beds = tuple(GrooveBed(groove, self.texels, self._metrics, self._near(groove)) for groove in grooves)
-        parts = [bed.heights() for bed in beds]
-        raised = tuple(sum(np.maximum(height, 0.0) for height, _ in strands) for strands in parts)
-        powers = tuple(sum(np.maximum(-height, 0.0) ** _POWER for height, _ in strands) for strands in parts)
-        total, joined = np.zeros((2, len(self.heights.height)))
-        for bed, up, power in zip(beds, raised, powers):
-            total[bed.rows] += up
-            joined[bed.rows] += power
-        joined **= 1 / _POWER
-        ends = np.cumsum([0, *(bed.unknowns for bed in beds)])
-        blocks = []
-        for bed, strands, start in zip(beds, parts, ends):
-            slope = np.zeros((len(bed.rows), bed.unknowns))
-            for height, derivative in strands:
-                share = np.divide(-height, joined[bed.rows], out=np.ones_like(height), where=height < 0)
-                slope += np.where(height < 0, share, 1.0)[:, None] ** (_POWER - 1) * derivative
-            rows = np.repeat(bed.rows, bed.unknowns)
-            columns = np.tile(np.arange(start, start + bed.unknowns), len(bed.rows))
-            blocks.append((slope.ravel(), rows, columns))
-        values, rows, columns = (np.concatenate([np.zeros(0), *part]) for part in zip(*blocks))
-        shape = len(total), int(ends[-1])
-        slopes = sparse.coo_array((values, (rows.astype(np.int64), columns.astype(np.int64))), shape=shape).tocsr()
-        return GrooveModel(beds, raised, powers, total - joined, slopes)
+    def _cost_with(self, placed: _Placed, near: Ints) -> float:
+        raised, power = self._raised[near], self._power[near]
+        # The texels of a groove are some of those near it, in the same order.
+        own = np.searchsorted(near, placed.bed.rows)
+        raised[own] += placed.raised
+        power[own] += placed.power
+        return self._cost(near, self._height(raised, power))
 
-    def _near(self, groove: Groove) -> Ints:
-        """Covered texels that the groove may reach."""
-        widest = max(strand.width for strand in groove.strands)
-        farthest = max(abs(strand.offset) for strand in groove.strands)
+    def _height(self, raised: Floats, power: Floats) -> Floats:
+        return raised - np.maximum(power, 0.0) ** (1 / _POWER)
+
+    def _cost(self, rows: Ints, height: Floats) -> float:
+        left = (self.heights.height[rows] - height) * self._upright[rows]
+        return float(self._area[rows] @ np.sqrt(left**2 + _NOISE**2))
+
+    def _weights(self, rows: Ints, left: Floats) -> Floats:
+        upright = self._upright[rows]
+        return self._area[rows] * upright**2 / np.sqrt((left * upright) ** 2 + _NOISE**2)
+
+    def _density(self, grooves: Sequence[Groove]) -> Floats:
+        """How many more vertices the wrinkled mesh has at every texel than beside its furrows, (k,)."""
+        density = np.ones(len(self.heights.height))
+        for groove in grooves:
+            away, _ = cKDTree(self._line(groove)).query(self.texels.positions, distance_upper_bound=_DENSE[-1][0])
+            for reach, factor in _DENSE[::-1]:
+                density[away < reach] = np.maximum(density[away < reach], factor)
+        return density
+
+    def _line(self, groove: Groove) -> Floats:
+        """Points of a curve on the skin [m], (k, 3)."""
         _, places = groove.chain.sampled(24)
         found, _ = self.texels.layout.locate(places)
         mesh = self.texels.layout.texture_map.mesh
-        points = found.blend(mesh.vertices, mesh.faces)
-        away, _ = cKDTree(points).query(
-            self.texels.positions[self._rows], distance_upper_bound=REACH * widest + farthest + _SLACK
-        )
+        return found.blend(mesh.vertices, mesh.faces)
+
+    def _bed(self, groove: Groove) -> GrooveBed:
+        return GrooveBed(groove, self.texels, self._metrics, self._near(groove))
+
+    def _near(self, groove: Groove) -> Ints:
+        """Covered texels that the groove may reach, now and after some steps."""
+        widest = max(strand.width for strand in groove.strands)
+        farthest = max(abs(strand.offset) for strand in groove.strands)
+        reach = REACH * widest + farthest + _SLACK
+        away, _ = cKDTree(self._line(groove)).query(self.texels.positions[self._rows], distance_upper_bound=reach)
         return self._rows[np.isfinite(away)]
-
-    def _left(self, height: Floats, heights: ScanHeights | None = None) -> Floats:
-        return (heights or self.heights).height[self._rows] - height[self._rows]
-
-    def _cost(self, height: Floats, heights: ScanHeights | None = None) -> float:
-        left = self._left(height, heights) * self._upright
-        return float(self._area @ np.sqrt(left**2 + _NOISE**2))
-
-    def _scales(self) -> Floats:
-        scales = []
-        for bed in self.model.beds:
-            strands = len(bed.groove.strands)
-            scales += [np.full(len(bed.free) + 2, _PLACE), [_LOG], np.tile([_LOG, _LOG, _PLACE], strands)]
-        return np.concatenate([np.zeros(0), *scales])
-
-    def _rigid_slopes(self) -> Floats:
-        """How the heights of the scan fall by its motion: a shift [m] and a turn [rad] about the origin, (r, 6)."""
-        points, normals = self.texels.positions[self._rows], self.texels.normals[self._rows]
-        return -np.concatenate([normals, np.cross(points, normals)], axis=1)
 
 
 def uprightness(heights: ScanHeights) -> Floats:
@@ -197,9 +224,15 @@ def uprightness(heights: ScanHeights) -> Floats:
     return texels.of_image(1.0 / np.sqrt(1.0 + rise[0] ** 2 + rise[1] ** 2))
 
 
-def _motion(twist: Floats) -> Floats:
-    """A small shift [m] and turn [rad], (6,), as a matrix."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = Rotation.from_rotvec(twist[3:]).as_matrix()
-    matrix[:3, 3] = twist[:3]
-    return matrix
+def _equations(columns: Floats, left: Floats, weights: Floats) -> tuple[Floats, Floats]:
+    """The normal equations of scaled unknowns, (u, u) and (u,), for what is left, (i,)."""
+    weighted = columns * weights[:, None]
+    return weighted.T @ columns, weighted.T @ left
+
+
+def _step(normal: Floats, pull: Floats, damping: float) -> Floats:
+    """The damped least-squares step, (u,)."""
+    size = np.trace(normal) / len(normal)
+    damped = normal + damping * (np.diag(np.diag(normal)) + (0.02 * size + 1e-12) * np.eye(len(normal)))
+    step: Floats = np.linalg.solve(damped, pull)
+    return step

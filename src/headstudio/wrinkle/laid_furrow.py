@@ -75,8 +75,14 @@ class LaidFurrow:
     def line(self, spacing: float) -> Floats:
         """Points along the furrow on the skin [m], no farther apart than ``spacing`` [m], (k, 3)."""
         count = max(int(np.ceil(self.length / spacing)), 2)
-        at = np.linspace(0.0, self.length, count + 1)
-        return np.stack([np.interp(at, self._arc, self.points[:, k]) for k in range(3)], axis=1)
+        return self._along(self._arc, np.linspace(0.0, self.length, count + 1))
+
+    def line_at(self, t: Floats) -> Floats:
+        """Points of the furrow on the skin [m] at t, (k,): (k, 3)."""
+        return self._along(self._t, t)
+
+    def _along(self, places: Floats, at: Floats) -> Floats:
+        return np.stack([np.interp(at, places, self.points[:, k]) for k in range(3)], axis=1)
 
     def arc(self, t: Floats) -> Floats:
         """Length along the furrow from its start to t [m], (k,)."""

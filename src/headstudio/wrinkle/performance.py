@@ -48,7 +48,7 @@ def moved_key(performance: Performance, index: int, time: float) -> Performance:
     low = performance[index - 1].time + 2 * SAME_TIME if index > 0 else 0.0
     high = performance[index + 1].time - 2 * SAME_TIME if index + 1 < len(performance) else math.inf
     moved = Keyframe(float(min(max(time, low), max(high, low))), performance[index].weights)
-    return (*performance[:index], moved, *performance[index + 1:])
+    return (*performance[:index], moved, *performance[index + 1 :])
 
 
 def check_performance(performance: Performance, sliders: tuple[str, ...]) -> Performance:

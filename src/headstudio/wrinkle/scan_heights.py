@@ -17,7 +17,7 @@ from .smooth_surface import SmoothSurface
 from .texels import Flags, texel_map
 
 # Edge of a texel on the skin [m], and the most of them along an edge of the map.
-TEXEL = 1e-3
+TEXEL = 8e-4
 _MOST_TEXELS = 1024
 # A scan is looked for this far above and below the skin [m]; it must face as the skin does.
 _REACH = 0.015

@@ -59,7 +59,9 @@ def valley_lines(field: ValleyField, least: float) -> list[ValleyLine]:
         depth = float(np.median(answers))
         _clear(free, path, width / field.metres, depth)
         if length >= _SHORTEST:
-            lines.append(ValleyLine(path[:, :2] + field.origin + 0.5, depth, width, length))
+            lines.append(
+                ValleyLine(np.asarray(path[:, :2] + field.origin + 0.5, dtype=np.float64), depth, width, length)
+            )
         if len(lines) == _MOST:
             break
     return lines

@@ -31,7 +31,8 @@ class ValleyField:
     """Answers of the filters on a part of the texels.
 
     depth: how far a place lies below both of its sides [m], (ANGLES, rows, columns), 0 where the scan is not, and at
-    angles where no valley runs. width: scale of the filter that found most [m], alike. origin: (x, y) of the first texel. metres: edge of a texel [m].
+    angles where no valley runs. width: scale of the filter that found most [m], alike. origin: (x, y) of the first texel.
+    metres: edge of a texel [m].
     """
 
     depth: Floats

@@ -1,0 +1,193 @@
+"""Scans: laid on a skin, measured, and furrows fitted to them. Grooves come from a profile that is not the studio's."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from headstudio.head.mesh import TriangleMesh
+from headstudio.wrinkle.alignment import ScanError, align, moved, plausible_units
+from headstudio.wrinkle.comparison import Distances, compare
+from headstudio.wrinkle.cross_section import CrossSection, strands_for
+from headstudio.wrinkle.fitting import FurrowFit, fit_grooves
+from headstudio.wrinkle.groove import Groove, GrooveBed, MetricField, Strand
+from headstudio.wrinkle.scan_heights import ScanHeights, SkinTexels
+from headstudio.wrinkle.shape import wrinkle_shape
+from headstudio.wrinkle.skin_layout import SkinLayout
+from headstudio.wrinkle.valley_lines import valley_lines
+from headstudio.wrinkle.valleys import valley_field
+
+from .skins import cap, flat_map, sheet
+
+NOISE = 1e-4
+
+
+def layout() -> SkinLayout:
+    return SkinLayout.of_map(flat_map(sheet(cells=40)))
+
+
+def mexican(x, sigma):
+    """A Gaussian valley with raised rims, as much above the skin as below it."""
+    return -2 * np.exp(-(x**2) / 2 / sigma**2) + np.exp(-(x**2) / 8 / sigma**2)
+
+
+def wrinkled_sheet(seed: int, lines, depth: float, sigma: float) -> TriangleMesh:
+    """A fine sheet with wandering grooves, and noise. lines: (start, end) [m]."""
+    rng = np.random.default_rng(seed)
+    fine = sheet(cells=110, seed=seed)
+    height = rng.normal(0, NOISE, len(fine.vertices))
+    for start, end in lines:
+        part = np.linspace(0, 1, 400)[:, None]
+        way = np.subtract(end, start)
+        aside = 0.002 * np.sin(2 * np.pi * (1.3 * part + rng.random())) * np.array([-way[1], way[0]]) / np.hypot(*way)
+        away, nearest = cKDTree(np.asarray(start) + part * way + aside).query(fine.vertices[:, :2])
+        ends = np.clip(np.minimum(nearest, 399 - nearest) / 50, 0, 1)
+        height += depth * ends**2 * (3 - 2 * ends) * mexican(away, sigma)
+    return fine.moved(fine.vertices + height[:, None] * [0, 0, 1])
+
+
+LINES = [((0.015, 0.03), (0.085, 0.04)), ((0.02, 0.075), (0.08, 0.065))]
+
+
+@pytest.fixture(scope="module")
+def scan() -> TriangleMesh:
+    return wrinkled_sheet(3, LINES, 3e-3, 2.2e-3)
+
+
+@pytest.fixture(scope="module")
+def fit(scan) -> FurrowFit:
+    return fit_grooves(layout(), scan)
+
+
+def test_a_fit_comes_near_a_scan_whose_grooves_have_another_profile(scan, fit):
+    before = np.nanmean(np.abs(ScanHeights.measured(fit.texels, scan).height))
+    after = np.nanmean(np.abs(fit.left))
+    assert after < 0.3e-3
+    assert after < 0.3 * before
+
+
+def test_fitted_furrows_lie_along_the_grooves_and_are_there_at_rest(fit):
+    deep = [groove for groove in fit.grooves if max(strand.depth for strand in groove.strands) > 1.5e-3]
+    assert len(deep) == len(LINES)
+    for groove in deep:
+        _, uv = groove.chain.sampled(30)
+        places = (uv - 0.1) / 8
+        off = min(np.abs(np.interp(places[:, 0], [a[0], b[0]], [a[1], b[1]]) - places[:, 1]).max() for a, b in LINES)
+        assert off < 0.0035
+        assert all(furrow.initial == 1.0 for furrow in groove.furrows(fit.texels, "groove"))
+
+
+def test_a_smooth_skin_gets_no_furrows():
+    rng = np.random.default_rng(1)
+    fine = sheet(cells=110)
+    noisy = fine.moved(fine.vertices + rng.normal(0, NOISE, len(fine.vertices))[:, None] * [0, 0, 1])
+    assert fit_grooves(layout(), noisy).grooves == ()
+
+
+def test_a_scan_of_another_place_gets_no_furrows(scan):
+    assert fit_grooves(layout(), scan.moved([*scan.vertices, 0, 0, 0.5])).grooves == ()
+
+
+def test_valleys_are_followed_through_a_crossing():
+    crossing = wrinkled_sheet(5, [((0.02, 0.05), (0.08, 0.05)), ((0.05, 0.02), (0.05, 0.08))], 3e-3, 2e-3)
+    heights = ScanHeights.measured(SkinTexels.of(layout()), crossing)
+    lines = [line for line in valley_lines(valley_field(heights), 5e-4) if line.length > 0.04]
+    assert len(lines) == 2
+    assert all(line.length < 0.085 for line in lines)
+
+
+def test_derivatives_of_a_groove_are_those_of_differences():
+    texels = SkinTexels.of(layout())
+    controls = np.array([[0.3, 0.4], [0.42, 0.5], [0.55, 0.35], [0.7, 0.45], [0.75, 0.48], [0.8, 0.5], [0.85, 0.55]])
+    groove = Groove(controls, (Strand(-5e-4, 2e-3, 1.6e-3), Strand(8e-4, 1e-3, 2.4e-3)))
+    metrics, near = MetricField(texels), np.arange(len(texels.uv))
+    bed = GrooveBed(groove, texels, metrics, near)
+    analytic = sum(slopes for _, slopes in bed.heights())
+    image = np.zeros(len(near))
+    image[bed.rows] = sum(height for height, _ in bed.heights())
+    count = len(bed.free)
+    for unknown, step in ((1, 2e-5), (count + 1, 2e-5), (count + 3, 1e-3), (count + 4, 1e-3), (count + 5, 1e-5)):
+        change = np.zeros(bed.unknowns)
+        change[unknown] = step
+        other = GrooveBed(bed.moved(change), texels, metrics, near)
+        moved_image = np.zeros(len(near))
+        moved_image[other.rows] = sum(height for height, _ in other.heights())
+        difference = ((moved_image - image) / step)[bed.rows]
+        assert np.corrcoef(difference, analytic[:, unknown])[0, 1] > 0.98
+        assert np.linalg.norm(difference) == pytest.approx(np.linalg.norm(analytic[:, unknown]), rel=0.1)
+
+
+def test_a_cross_section_of_the_studio_itself_takes_one_furrow():
+    across = np.arange(-0.012, 0.0121, 4e-4)
+    section = CrossSection(across, wrinkle_shape(np.abs(across), 3e-3, 2e-3), np.ones_like(across))
+    (strand,) = strands_for(section, Strand(0.0, 2.5e-3, 2.5e-3))
+    assert strand.depth == pytest.approx(3e-3, rel=0.05)
+    assert strand.width == pytest.approx(2e-3, rel=0.05)
+
+
+def test_furrows_side_by_side_come_nearer_to_a_round_floor():
+    across = np.arange(-0.014, 0.0141, 4e-4)
+    section = CrossSection(across, 3e-3 * mexican(across, 2e-3), np.ones_like(across))
+    alone = Strand(0.0, 5e-3, 4e-3)
+    strands = strands_for(section, alone)
+    assert len(strands) > 1
+
+
+def turned(angle: float, shift) -> np.ndarray:
+    matrix = np.eye(4)
+    matrix[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    matrix[:3, 3] = shift
+    return matrix
+
+
+def test_a_scan_that_was_moved_is_laid_back():
+    base = cap(bumps=0.08)
+    half = TriangleMesh(base.vertices, base.faces[base.vertices[base.faces][..., 0].mean(axis=1) > -0.01])
+    away = turned(0.08, [0.004, -0.003, 0.002])
+    found = align(moved(half, away), base, plausible_units(half))
+    assert np.abs(found.matrix @ away - np.eye(4)).max() < 1e-3
+    assert found.distance < 1e-4
+
+
+def test_a_scan_that_lies_already_is_left_where_it_is():
+    base = cap(bumps=0.08)
+    assert np.array_equal(align(base, base, [np.eye(4)]).matrix, np.eye(4))
+
+
+def test_a_scan_in_millimetres_is_understood():
+    base = cap(bumps=0.08)
+    found = align(base.moved(1000 * base.vertices), base, plausible_units(base.moved(1000 * base.vertices)))
+    assert np.allclose(found.matrix[:3, :3], 1e-3 * np.eye(3), atol=1e-6)
+
+
+def test_a_scan_of_something_else_is_refused():
+    base = cap(bumps=0.08)
+    with pytest.raises(ScanError, match="does not lie on this head"):
+        align(base.moved([*base.vertices, 0, 0, 0.5]), base, [np.eye(4)])
+
+
+def test_distances_between_parallel_sheets_are_their_distance():
+    flat = sheet()
+    other = sheet(cells=37, seed=4)
+    comparison = compare(flat, other.moved([*other.vertices, 0, 0, 0.002]))
+    found = comparison.distances()
+    assert (found.mean, found.rms, found.largest) == pytest.approx((2e-3, 2e-3, 2e-3), rel=1e-9)
+    assert (comparison.to_scan > 0).all()
+    assert found.count == len(comparison.vertices) + len(comparison.scan_vertices)
+
+
+def test_what_a_patch_does_not_cover_does_not_count():
+    flat = sheet()
+    patch = TriangleMesh(flat.vertices, flat.faces[flat.vertices[flat.faces][..., 0].mean(axis=1) < 0.05])
+    comparison = compare(flat, patch.moved([*patch.vertices, 0, 0, 0.001]))
+    assert flat.vertices[comparison.vertices][:, 0].max() < 0.06
+    with pytest.raises(ScanError, match="covers no part"):
+        compare(flat, patch.moved([*patch.vertices, 0, 0, 0.1]))
+
+
+def test_figures_of_distances():
+    assert Distances.of(np.array([3.0, -4.0])) == Distances(3.5, pytest.approx(np.sqrt(12.5)), 4.0, 2)
+    assert replace(Distances.of(np.ones(2)), count=1).mean == 1.0
