@@ -90,7 +90,7 @@ def _settled(samples: tuple[Floats, Floats], target: Locator, base: TriangleMesh
     for _ in range(_ROUNDS):
         points = _moved(samples[0], matrix)
         normals = samples[1] @ matrix[:3, :3].T
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
         found, away = target.nearest(points)
         planes = base.face_normals[found.faces]
         used = (away < _FARTHEST) & (np.einsum("kd,kd->k", planes, normals) > _FACING)
