@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -74,7 +74,7 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
         return FurrowFit((), np.eye(4), np.zeros_like(raw.height), texels, raw.height)
     everywhere = np.ones_like(raw.height)
     progress("looking for valleys", 0.03)
-    grooves = _first_grooves(raw.without(raw.low_pass(_SMOOTH, everywhere)), [])
+    grooves = _first_grooves(raw.without(raw.low_pass(_SMOOTH, everywhere)))
     # As long as grooves are not fitted, the skin beside them tells.
     model = GrooveFit(raw, grooves).height
     beside = np.where(np.abs(model) > _FAINT, 0.02, 1.0)
@@ -84,7 +84,7 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
 
     smooth = _notable(change_of_shape(raw, fit.height), raw, beside)
     fit = _pruned(GrooveFit(raw.without(smooth), fit.grooves))
-    fit = fit.replaced([*fit.grooves, *_first_grooves(fit.heights.without(fit.height), fit.grooves)])
+    fit = fit.replaced([*fit.grooves, *_first_grooves(fit.heights.without(fit.height))])
     _steps(fit, _STEPS[1], progress, "laying those that were missed", 0.2, 0.35)
 
     progress("matching their cross sections", 0.35)
@@ -113,7 +113,7 @@ def _steps(
             break
 
 
-def _first_grooves(heights: ScanHeights, known: Sequence[Groove]) -> list[Groove]:
+def _first_grooves(heights: ScanHeights) -> list[Groove]:
     """A furrow for every valley of a scan, nearly where it runs, nearly as deep and wide."""
     field = valley_field(heights)
     least = max(_OVER_NOISE * heights.noise, _SHALLOWEST, _PART * float(field.depth.max(initial=0.0)))
