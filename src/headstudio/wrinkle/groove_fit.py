@@ -145,7 +145,7 @@ class GrooveFit:
         placed = self._placed[k]
         self._raised[placed.bed.rows] -= placed.raised
         self._power[placed.bed.rows] -= placed.power
-        near = self._near(placed.bed.groove)
+        near = np.union1d(self._near(placed.bed.groove), placed.bed.rows)
         cost = self._cost_with(placed, near)
         for _ in range(steps):
             bed = placed.bed
