@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial import cKDTree
 
 from headstudio.head.mesh import TriangleMesh
-from headstudio.wrinkle.alignment import align, moved, plausible_units
-from headstudio.wrinkle.comparison import Distances
+from headstudio.wrinkle.alignment import ScanError, align, moved, plausible_units
+from headstudio.wrinkle.comparison import Distances, compare
 from headstudio.wrinkle.cross_section import CrossSection, strands_for
 from headstudio.wrinkle.fitting import FurrowFit, fit_grooves
 from headstudio.wrinkle.groove import Groove, GrooveBed, MetricField, Strand
@@ -97,6 +97,10 @@ def test_a_smooth_skin_gets_no_furrows():
     assert fit_grooves(layout(), noisy).grooves == ()
 
 
+def test_a_scan_of_another_place_gets_no_furrows(scan):
+    assert fit_grooves(layout(), lifted(scan, 0.5)).grooves == ()
+
+
 def test_valleys_are_followed_through_a_crossing():
     crossing = wrinkled_sheet(5, [((0.02, 0.05), (0.08, 0.05)), ((0.05, 0.02), (0.05, 0.08))], 3e-3, 2e-3)
     heights = ScanHeights.measured(SkinTexels.of(layout()), crossing)
@@ -160,6 +164,30 @@ def test_a_scan_in_millimetres_is_understood():
     base = cap(bumps=0.08)
     found = align(base.moved(1000 * base.vertices), base, plausible_units(base.moved(1000 * base.vertices)))
     assert np.allclose(found.matrix[:3, :3], 1e-3 * np.eye(3), atol=1e-6)
+
+
+def test_a_scan_of_something_else_is_refused():
+    base = cap(bumps=0.08)
+    with pytest.raises(ScanError, match="does not lie on this head"):
+        align(lifted(base, 0.5), base, [np.eye(4)])
+
+
+def test_distances_between_parallel_sheets_are_their_distance():
+    flat, other = sheet(), sheet(cells=37, seed=4)
+    comparison = compare(flat, lifted(other, 0.002))
+    found = comparison.distances()
+    assert (found.mean, found.rms, found.largest) == pytest.approx((2e-3, 2e-3, 2e-3), rel=1e-9)
+    assert (comparison.to_scan > 0).all()
+    assert found.count == len(comparison.vertices) + len(comparison.scan_vertices)
+
+
+def test_what_a_patch_does_not_cover_does_not_count():
+    flat = sheet()
+    patch = TriangleMesh(flat.vertices, flat.faces[flat.vertices[flat.faces][..., 0].mean(axis=1) < 0.05])
+    comparison = compare(flat, lifted(patch, 0.001))
+    assert flat.vertices[comparison.vertices][:, 0].max() < 0.06
+    with pytest.raises(ScanError, match="covers no part"):
+        compare(flat, lifted(patch, 0.1))
 
 
 def test_figures_of_distances():
