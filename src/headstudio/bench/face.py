@@ -80,7 +80,7 @@ def face_cost(
         times.append(time.perf_counter())
         living = skin.at(settings)
         times.append(time.perf_counter())
-        renderer.render(Stage(face.head, skin=living), document.look, document.camera, SIZE)
+        renderer.render(Stage(face.head, skin=living), document.look, document.camera, SIZE, skin=document.skin)
         renderer.context.finish()
         times.append(time.perf_counter())
         if k >= 0:

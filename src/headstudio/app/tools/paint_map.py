@@ -15,8 +15,8 @@ from ...head.scalp_settings import GrayImage
 from ...scene.stage import Stage
 from ...wisp.follicles import tiles_of
 from ...wisp.proportions import Proportions
-from .. import theme
 from ..brush import BrushStroke, Sheet
+from ..brush_rim import draw_rim, rim_points
 from ..map_colours import map_colours
 from ..painted_maps import PaintedMap
 from ..parameter_widgets import edit_item
@@ -25,7 +25,6 @@ from ..ui import Ui
 from .tool import Canvas, Pointer, Tool
 
 _LIFT = 0.002  # of the coloured map off the skin [m]
-_RING = 48  # points of the drawn rim of the brush
 _OPACITY = 0.6
 _SIZE = 256, 256  # texels of a map that is made from nothing
 
@@ -125,16 +124,8 @@ class PaintMap(Tool):
             self._draw_rim(canvas, flipped * (place - [middle, 0, 0]) + [middle, 0, 0], flipped * normal, 0.35)
 
     def _draw_rim(self, canvas: Canvas, place: Floats, normal: Floats, strength: float) -> None:
-        across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
-        across /= max(float(np.linalg.norm(across)), 1e-9)
-        turn = np.linspace(0, 2 * np.pi, _RING, endpoint=False)[:, None]
-        rim = place + self.studio.brush.radius * (np.cos(turn) * across + np.sin(turn) * np.cross(normal, across))
-        shown = canvas.on_screen(rim)
-        for colour, width in (
-            (theme.packed(theme.GROUND, 0.7 * strength), 3.5),
-            (theme.packed(theme.INK, strength), 1.5),
-        ):
-            canvas.drawing.add_polyline(shown, colour, width * canvas.scale, imgui.ImDrawFlags_.closed.value)
+        shown = canvas.on_screen(rim_points(place, normal, self.studio.brush.radius))
+        draw_rim(canvas.drawing, shown, strength, canvas.scale)
 
     def _put(self, image: GrayImage | None, label: str) -> None:
         self.studio.work.change(self.painted.write(self.studio.document, image), label)

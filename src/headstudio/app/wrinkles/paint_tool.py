@@ -18,8 +18,8 @@ from ...scene.document import Document
 from ...scene.stage import Stage
 from ...wisp.proportions import Proportions
 from ...wrinkle.tissue_thickness import MAX_THICKNESS, as_image, thickness_of
-from .. import theme
 from ..brush import BrushStroke, Sheet
+from ..brush_rim import draw_rim, rim_points
 from ..map_colours import map_colours
 from ..parameter_widgets import edit_item
 from ..studio import Studio
@@ -30,7 +30,6 @@ from .skin_tool import SkinTool
 
 SIZE = 256  # texels along an edge of a new map
 _LIFT = 0.0015  # of the coloured map off the skin [m]
-_RING = 48  # points of the drawn rim of the brush
 _OPACITY = 0.6
 
 
@@ -165,17 +164,8 @@ class PaintSkin(SkinTool):
 
     def _draw_rim(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, place: SurfacePoints, strength: float) -> None:
         faces = canvas.faces
-        middle, normal = faces.at_rest(place)[0], faces.normals(place)[0]
-        side = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
-        side /= max(float(np.linalg.norm(side)), 1e-9)
-        turn = np.linspace(0, 2 * np.pi, _RING, endpoint=False)[:, None]
-        rim = middle + self.studio.brush.radius * (np.cos(turn) * side + np.sin(turn) * np.cross(normal, side))
-        shown = as_points(canvas.on_screen(faces.of_skin(rim)))
-        for colour, width in (
-            (theme.packed(theme.GROUND, 0.7 * strength), 3.5),
-            (theme.packed(theme.INK, strength), 1.5),
-        ):
-            drawing.add_polyline(shown, colour, width * canvas.scale, imgui.ImDrawFlags_.closed.value)
+        rim = rim_points(faces.at_rest(place)[0], faces.normals(place)[0], self.studio.brush.radius)
+        draw_rim(drawing, as_points(canvas.on_screen(faces.of_skin(rim))), strength, canvas.scale)
 
     def _write(self, image: GrayImage | None, label: str) -> None:
         self.studio.work.change(self.painted.write(self.studio.document, image), label)
