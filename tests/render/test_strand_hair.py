@@ -15,7 +15,8 @@ from headstudio.render.deep_opacity import LAYER_DEPTHS
 from headstudio.render.fibre import Fibre, melanin_absorption, scattering
 from headstudio.render.renderer import Renderer
 from headstudio.render.scene_block import SCENE_DTYPE
-from headstudio.render.sky_light import FINE, QUICK, Sky, SkyLight, SkyPrograms, irradiance
+from headstudio.render.sky_light import Sky, SkyLight, SkyPrograms, irradiance
+from headstudio.render.strand_detail import FINE, StrandSurvey
 from headstudio.render.strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from headstudio.render.strand_picture import StrandScene, shown, strand_picture
 from headstudio.render.strand_points import PIECE, pack, piece_indices, strip_indices
@@ -64,10 +65,10 @@ class TestStrips:
 
     def test_every_segment_is_drawn_once(self) -> None:
         first = pack(self.strands).first
-        whole = strip_indices(first, 3)
-        assert (whole == 0xFFFFFFFF).sum() == 3
+        whole, ends = strip_indices(first, 3)
+        assert (np.flatnonzero(whole == 0xFFFFFFFF) + 1 == ends[1:]).all()
         assert (whole[whole != 0xFFFFFFFF] == np.arange(24)).all()
-        pieces, amid = piece_indices(first, 3)
+        pieces, amid, of_strands = piece_indices(first, 3)
         drawn = {
             (int(a) // 2, int(b) // 2) for row in pieces for a, b in zip(row[:-3:2], row[2:-1:2]) if a // 2 != b // 2
         }
@@ -76,6 +77,14 @@ class TestStrips:
         assert pieces.shape == (4, 2 * PIECE + 3)  # 1, 6 and 2 segments, in some order
         assert all(row[0] // 2 <= point <= row[-2] // 2 for row, point in zip(pieces, amid, strict=True))
         assert (pieces[:, -1] == 0xFFFFFFFF).all()
+        assert of_strands[-1] == 4
+
+    def test_coarser_strips_keep_roots_and_tips(self) -> None:
+        strands = Strands(np.zeros((12, 3), np.float32), np.array([0, 2, 9, 12]))
+        first = np.asarray(strands.first)
+        coarse, ends = strip_indices(first, 3, stride=4)
+        points = [(part[:-1:2] // 2).tolist() for part in np.split(coarse, ends[1:-1])]
+        assert points == [[0, 1], [2, 6, 8], [9, 11]]
 
     def test_fewer_strands_are_a_sample_of_all(self) -> None:
         strands = fur(500)
@@ -95,7 +104,7 @@ def lit_hair(
     gl: moderngl.Context, programs: StrandPrograms, strands: Strands, shadows: bool
 ) -> tuple[StrandHair, object]:
     """Strands under a light and no sky, with nothing in the way but themselves."""
-    hair = StrandHair(gl, programs, strands, strands.count)
+    hair = StrandHair(gl, programs, StrandSurvey(strands), strands.count, FINE)
     maps = light_targets(gl, 512)
     sphere = bounding_sphere(strands.points)
     light = parallel_view(TO_LIGHT, sphere.centre, sphere.radius)
@@ -110,7 +119,7 @@ def lit_hair(
     maps.shadow.clear(depth=1.0)
     hair.shed_light(light, HeadFrame(), maps, 512)
     dark = Sky(np.zeros(3), np.zeros(3), np.array([0.0, 1.0, 0.0]))
-    empty = SkyLight(gl, SkyPrograms(gl), programs.opacity, ball().vertices, ball().faces, QUICK)
+    empty = SkyLight(gl, SkyPrograms(gl), programs.opacity, ball().vertices, ball().faces, FINE)
     hair.see_from_sky(empty)
     empty.see_body(np.zeros((len(ball().vertices), 3)))
     hair.take_soft_light(empty, dark, np.ones(3))
@@ -172,7 +181,7 @@ def test_deep_opacity_is_what_rays_meet(gl: moderngl.Context, programs: StrandPr
 
 def test_a_ball_hides_its_part_of_the_sky(gl: moderngl.Context, programs: StrandPrograms) -> None:
     strands = fur(50)
-    hair = StrandHair(gl, programs, strands, 50)
+    hair = StrandHair(gl, programs, StrandSurvey(strands), 50, FINE)
     body = ball()
     sky_light = SkyLight(gl, SkyPrograms(gl), programs.opacity, body.vertices, body.faces, FINE)
     hair.see_from_sky(sky_light)

@@ -11,9 +11,6 @@ from ..head.mesh import Floats, Ints
 from ..wisp.strands import Singles
 from .context import release
 
-FINEST = 0.004
-"""Distance of grid nodes [m], where the hair is not too large for it."""
-
 MOST_NODES = 600_000
 
 
@@ -34,11 +31,11 @@ class Grid:
         return self.low + self.spacing * np.stack([x, rest % self.shape[1], rest // self.shape[1]], axis=1)
 
 
-def grid_around(points: Singles) -> Grid:
-    """The grid around points of hair [m], (p, 3)."""
+def grid_around(points: Singles, finest: float) -> Grid:
+    """The grid around points of hair [m], (p, 3), its nodes ``finest`` [m] apart where that is not too many."""
     low, high = points.min(axis=0).astype(float), points.max(axis=0).astype(float)
-    spacing = max(FINEST, float(np.cbrt(np.prod(high - low + FINEST) / MOST_NODES)))
-    cells = np.floor((points - low.astype(np.float32)) / np.float32(spacing)).astype(np.int64)
+    spacing = max(finest, float(np.cbrt(np.prod(high - low + finest) / MOST_NODES)))
+    cells = ((points - low.astype(np.float32)) * np.float32(1 / spacing)).astype(np.int32)
     nx, ny, nz = (int(n) for n in cells.max(axis=0) + 2)
     flat = cells[:, 0] + nx * (cells[:, 1] + ny * cells[:, 2])
     used = np.zeros(nx * ny * nz, bool)

@@ -25,7 +25,8 @@ from .scene_block import SCENE_DTYPE, linear, scene_block, sky_and_ground
 from .screen import ScreenPasses
 from .skin_body import SkinBody, SkinPrograms
 from .skin_paint import coarse_faces
-from .sky_light import FINE, QUICK, Sky, SkyLight, SkyPrograms
+from .sky_light import Sky, SkyLight, SkyPrograms
+from .strand_detail import FINE, QUICK, StrandSurvey
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .strand_picture import FINENESS, STEPS, Progress
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
@@ -177,11 +178,11 @@ class Renderer:
         timer.start()
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
-            strands = self._pull_strands(stage, look)
+            view = camera_view(camera, targets.size[0] / targets.size[1])
+            strands = self._pull_strands(stage, look, view, targets.scene.height)
             worn = self._pull_adornments(stage, look)
             maps = self._maps_for(look.shadow_size)
-            width, height = targets.size
-            view, light = camera_view(camera, width / height), self._light(stage, look, hair, strands)
+            light = self._light(stage, look, hair, strands)
             self._scene_block.write(scene_block(view, light, stage.frame, look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
         with timer.stage("shadow"):
@@ -232,14 +233,17 @@ class Renderer:
         self._body = known
         return known
 
-    def _pull_strands(self, stage: Stage, look: Look) -> StrandHair | None:
+    def _pull_strands(self, stage: Stage, look: Look, view: View, height: int) -> StrandHair | None:
         if stage.strands is None or stage.strands.count == 0 or not look.show_hair:
             return None
         known = self._strands
-        shown = stage.strands.count if self._final else look.strands_shown
-        if known is None or not known.suits(stage.strands, shown):
-            self._strands = StrandHair(self.context, self._strand_programs, stage.strands, shown)
-        return self._strands
+        survey = known.survey if known and known.survey.strands is stage.strands else StrandSurvey(stage.strands)
+        shown, detail = (stage.strands.count, FINE) if self._final else (look.strands_shown, QUICK)
+        sparse = survey.bend < detail.bend_pixels * survey.pixel(view, stage.frame, height)
+        if known is None or not known.suits(survey, shown, detail, sparse):
+            known = StrandHair(self.context, self._strand_programs, survey, shown, detail, sparse)
+        self._strands = known
+        return known
 
     def _pull_adornments(self, stage: Stage, look: Look) -> Adornments | None:
         if not stage.adornments or not look.show_hair:
@@ -251,13 +255,12 @@ class Renderer:
     def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
         """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
         material = strand_material(look)
-        detail = FINE if self._final else QUICK
-        wanted = (strands, detail, look.ambient, material.absorption, look.strand_roughness)
+        wanted = (strands, look.ambient, material.absorption, look.strand_roughness)
         if self._sky_in == wanted:
             return
         skin = stage.head.skin
         opacity, faces = self._strand_programs.opacity, coarse_faces(skin, _BODY_DETAIL)
-        sky_light = SkyLight(self.context, self._sky_programs, opacity, skin.vertices, faces, detail)
+        sky_light = SkyLight(self.context, self._sky_programs, opacity, skin.vertices, faces, strands.detail)
         strands.see_from_sky(sky_light)
         lost = strands.lost(material)
         sky = Sky(*sky_and_ground(look), np.array([0.0, 1.0, 0.0]))
@@ -328,6 +331,7 @@ class Renderer:
     ) -> None:
         maps.depth.use(0)
         maps.map.use(1)
+        strands.look_from(view, stage.frame, targets.scene.height)
         strands.shade(strand_material(look))
         with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
             targets.scene.depth_mask = False

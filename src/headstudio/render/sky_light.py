@@ -18,19 +18,8 @@ from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky import sphere_directions
+from .strand_detail import StrandDetail
 from .view import Sphere, bounding_sphere, parallel_view
-
-
-@dataclass(frozen=True)
-class SkyDetail:
-    """pairs: of opposite directions that stand for the sky, at most 18. strands: how many stand for the hair."""
-
-    pairs: int
-    strands: int
-
-
-FINE = SkyDetail(pairs=16, strands=2_500)
-QUICK = SkyDetail(pairs=6, strands=1_000)
 
 MAP_SIZE = 192
 BODY_SIZE = 256
@@ -69,10 +58,8 @@ class SkyLight:
         opacity: OpacityPrograms,
         vertices: Floats,
         faces: Ints,
-        detail: SkyDetail,
+        detail: StrandDetail,
     ) -> None:
-        self.detail = detail
-
         self._context = context
         self._programs = programs
         self._hair = DeepOpacityMap(context, opacity, MAP_SIZE, _TILES)

@@ -11,7 +11,6 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
-from ..wisp.strands import Strands
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
 from .fibre import Fibre, FibreTables, colour_absorption, colour_slope, fibre_tables, passed_on
@@ -19,14 +18,15 @@ from .light_volume import LightVolume, grid_around
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky_light import Sky, SkyLight
+from .strand_detail import StrandDetail, StrandSurvey, every_second
 from .strand_points import POINT_ROW, StrandTextures, pack, piece_indices, strip_indices
 from .targets import LightTargets
-from .view import View, bounding_sphere, parallel_view
+from .view import View, parallel_view
 
 _DEPTH_LEVELS = 65535
 
-LIGHT_STRANDS = 20_000
-"""Strands, a fair sample of all, that are drawn into the light's map: enough to cover its texels many times."""
+# No fewer strands are drawn, however small they are seen.
+_FEWEST = 2_000
 
 
 @dataclass(frozen=True)
@@ -52,27 +52,37 @@ class StrandPrograms:
 
 
 class StrandHair:
-    """One set of strands, of which the first ``shown`` are drawn, wider by as much as others are left out."""
+    """One set of strands, of which at most ``shown`` are drawn, wider by as much as others are left out."""
 
-    def __init__(self, context: moderngl.Context, programs: StrandPrograms, strands: Strands, shown: int) -> None:
-        self.strands = strands
+    def __init__(
+        self,
+        context: moderngl.Context,
+        programs: StrandPrograms,
+        survey: StrandSurvey,
+        shown: int,
+        detail: StrandDetail,
+        sparse: bool = False,
+    ) -> None:
+        """sparse: without every second of the points."""
+        self.survey = survey
+        self.detail = detail
+        self.sparse = sparse
+        strands = every_second(survey.strands) if sparse else survey.strands
+        self._stands_for = strands.stands_for * strands.count
         self._context = context
         self._programs = programs
         packed = pack(strands)
-        self.reach = float(np.linalg.norm(strands.points, axis=1).max(initial=0.0))
-        """How far strands reach from the origin of the head frame [m]."""
-        self.shown = min(shown, packed.count)
-        self.widening = strands.stands_for * packed.count / max(self.shown, 1)
-        self._shown_points = int(packed.first[self.shown])
+        self._first = packed.first
+        self.shown = self._drawn = min(shown, packed.count)
         self._textures = StrandTextures(context, packed)
-        lit_by = min(LIGHT_STRANDS, self.shown)
-        self._light_widening = strands.stands_for * packed.count / max(lit_by, 1)
-        self._light_points = int(packed.first[lit_by])
-        indices = strip_indices(packed.first, lit_by)
-        self._indices = len(indices)
+        self._sphere = survey.sphere
+        self.reach = float(np.linalg.norm(self._sphere.centre)) + self._sphere.radius
+        """Strands reach no farther from the origin of the head frame than this [m]."""
+        self._lit_by = min(detail.sun_strands, self.shown)
+        indices, self._light_ends = strip_indices(packed.first, self._lit_by, detail.stride)
         strips = context.buffer(indices)
         self._light_strips = LightStrips(context, programs.opacity, self._textures, strips)
-        self._pieces, amid = piece_indices(packed.first, self.shown)
+        self._pieces, amid, self._piece_ends = piece_indices(packed.first, self.shown)
         self._amid = packed.points[amid, :3]
         self._sorted = context.buffer(reserve=max(self._pieces.nbytes, 4))
         self._sorted_array = context.vertex_array(programs.ribbon, [], self._sorted)
@@ -80,19 +90,31 @@ class StrandHair:
         self._shades.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._shade_target = context.framebuffer([self._shades])
         self.opacity: DeepOpacityMap | None = None
-        self._first = packed.first
         self._mean_colour = None if packed.colour is None else packed.colour.mean(axis=0).astype(float)
-        self._grid = grid_around(strands.points)
-        self._sphere = bounding_sphere(strands.points)
+        self._grid = grid_around(strands.points, detail.spacing)
         self._hair_view: View
-        self._lit_by: tuple[bytes, bytes, int] | None = None
+        self._lit_from: tuple[bytes, bytes, int] | None = None
         self._soft: LightVolume | None = None
         self._fibre: Fibre | None = None
         self._tables: FibreTables
 
-    def suits(self, strands: Strands, shown: int) -> bool:
+    def suits(self, survey: StrandSurvey, shown: int, detail: StrandDetail, sparse: bool) -> bool:
         """True if these are those strands in that detail."""
-        return self.strands is strands and self.shown == min(shown, strands.count)
+        same = self.survey is survey and self.detail == detail and self.sparse == sparse
+        return same and self.shown == min(shown, survey.strands.count)
+
+    def widening(self, of: int) -> float:
+        """How many times too thick the first ``of`` strands are drawn, to cover as much as all that they stand for."""
+        return self._stands_for / max(of, 1)
+
+    def look_from(self, view: View, frame: HeadFrame, height: int) -> None:
+        """Choose how many strands are shaded and drawn in a picture ``height`` pixels high: so many that none is wider than
+        the detail says.
+        """
+        self._drawn = self.shown
+        if self.detail.strand_pixels:
+            widest = self.detail.strand_pixels * self.survey.pixel(view, frame, height)
+            self._drawn = min(self.shown, max(int(self.widening(1) * self.survey.width / widest), _FEWEST))
 
     def shed_light(self, light: View, frame: HeadFrame, maps: LightTargets, size: int) -> None:
         """Draw the strands as the light sees them, and what they let through into the light map, for the skin.
@@ -104,10 +126,11 @@ class StrandHair:
         pose = _pose(frame)
         centre = pose[:3, :3] @ self._sphere.centre + pose[:3, 3]
         view = parallel_view(-light.forward, centre, self._sphere.radius)
-        lit_by = (view.clip_from_world.tobytes(), pose.tobytes(), size)
-        if self._lit_by != lit_by:
-            self.opacity.fill(self._light_strips, self._indices, self._light_widening, pose, [view])
-            self._hair_view, self._lit_by = view, lit_by
+        lit_from = (view.clip_from_world.tobytes(), pose.tobytes(), size)
+        if self._lit_from != lit_from:
+            indices = int(self._light_ends[-1])
+            self.opacity.fill(self._light_strips, indices, self.widening(self._lit_by), pose, [view])
+            self._hair_view, self._lit_from = view, lit_from
         from_light = view.clip_from_world @ np.linalg.inv(light.clip_from_world)
         with self._context.scope(maps.light, moderngl.NOTHING):
             maps.depth.compare_func = ""
@@ -126,11 +149,8 @@ class StrandHair:
 
     def see_from_sky(self, sky_light: SkyLight) -> None:
         """Show the hair to the sky: as many of the strands, spread evenly over all, as it can look through."""
-        strands = min(sky_light.detail.strands, LIGHT_STRANDS, self.shown)
-        indices = int(2 * self._first[strands] + strands)
-        sky_light.see_hair(
-            self._light_strips, indices, self.strands.stands_for * self.strands.count / strands, self._sphere
-        )
+        strands = min(self.detail.sky_strands, self._lit_by)
+        sky_light.see_hair(self._light_strips, int(self._light_ends[strands]), self.widening(strands), self._sphere)
 
     def take_soft_light(self, sky_light: SkyLight, sky: Sky, lost: Floats) -> None:
         """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
@@ -155,7 +175,7 @@ class StrandHair:
         return receive(self._context, self._programs.screens, "sunlit", places, 1, **uniforms)[:, 0, :3]
 
     def shade(self, material: StrandMaterial) -> None:
-        """Work out the radiance of every point that is shown; texture 0 is the shadow map, 1 the light map."""
+        """Work out the radiance of every point that is drawn; texture 0 is the shadow map, 1 the light map."""
         assert self.opacity is not None
         assert self._soft is not None
         self._prepare_fibre(material.fibre)
@@ -171,8 +191,8 @@ class StrandHair:
         uniforms = {
             "shadow_map": 0, "light_map": 1, "points": 2, "tangents": 3, "hair_colours": 4,
             "around_table": 5, "spread_table": 6, "albedo_table": 7,
-            "light_widening": self._light_widening,
-            "light_points": self._light_points,
+            "light_widening": self.widening(self._lit_by),
+            "light_points": int(self._first[self._lit_by]),
             "coloured": textures.colour is not None,
             "hair_absorption": material.absorption,
             "colour_slope": colour_slope(fibre.radial_roughness),
@@ -181,7 +201,7 @@ class StrandHair:
             "tilt_sin": tuple(np.sin(fibre.tilts)),
             "fibre_model": material.fibre_model,
         }  # fmt: skip
-        rows = -(-self._shown_points // POINT_ROW)
+        rows = -(-int(self._first[self._drawn]) // POINT_ROW)
         with self._context.scope(self._shade_target, moderngl.NOTHING):
             self._shade_target.viewport = (0, 0, POINT_ROW, max(rows, 1))
             self._programs.screens.draw("shade", **uniforms, **self.light_uniforms(8), **self._soft.bind(11))
@@ -192,7 +212,8 @@ class StrandHair:
         They are drawn in so many steps: yields 1, 2, 3 ... after each.
         """
         eye = frame.rotation.inv().apply(view.eye - frame.translation)
-        away = np.linalg.norm(self._amid - eye.astype(np.float32), axis=1)
+        pieces = int(self._piece_ends[self._drawn])
+        away = np.linalg.norm(self._amid[:pieces] - eye.astype(np.float32), axis=1)
         low, high = (float(away.min()), float(away.max())) if len(away) else (0.0, 1.0)
         # Whole numbers are sorted several times as fast, and 65,536 levels are some hundredths of a millimetre.
         levels = ((high - away) * (_DEPTH_LEVELS / max(high - low, 1e-6))).astype(np.uint16)
@@ -210,7 +231,7 @@ class StrandHair:
         self._textures.tangents.use(3)
         self._shades.use(4)
         set_uniforms(
-            self._programs.ribbon, points=2, tangents=3, shades=4, widening=self.widening,
+            self._programs.ribbon, points=2, tangents=3, shades=4, widening=self.widening(self._drawn),
             metres_per_pixel=2.0 / (view.focal * height),
         )  # fmt: skip
 

@@ -21,7 +21,8 @@ from ..wisp.strands import Strands
 from .plain_body import PlainBody, PlainBodyPrograms
 from .scene_block import SCENE_DTYPE
 from .screen import ScreenPasses
-from .sky_light import FINE, Sky, SkyLight, SkyPrograms, irradiance
+from .sky_light import Sky, SkyLight, SkyPrograms, irradiance
+from .strand_detail import FINE, StrandSurvey
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .targets import light_targets, picture_targets
 from .view import View, bounding_sphere, parallel_view
@@ -68,7 +69,7 @@ def strand_picture(
 ) -> NDArray[np.float32] | None:
     """The scene as linear light, top row first, (size, size, 3); None if ``progress`` stopped it."""
     programs = StrandPrograms(context)
-    hair = StrandHair(context, programs, scene.strands, scene.strands.count)
+    hair = StrandHair(context, programs, StrandSurvey(scene.strands), scene.strands.count, FINE)
     body = PlainBody(context, PlainBodyPrograms(context), _refined(scene))
     maps = light_targets(context, SHADOW_SIZE)
     everything = np.concatenate([body.vertices, scene.strands.points])

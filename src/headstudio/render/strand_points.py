@@ -68,14 +68,25 @@ def pack(strands: Strands) -> PackedStrands:
     return PackedStrands(points, tangents, None if strands.colour is None else strands.colour[source], first)
 
 
-def strip_indices(first: NDArray[np.int64], shown: int) -> NDArray[np.uint32]:
-    """The first ``shown`` strands as triangle strips: two vertices for every point, a restart after every strand."""
-    ends = first[1 : shown + 1]
-    return np.insert(np.arange(2 * first[shown], dtype=np.uint32), 2 * ends, _RESTART)
+def strip_indices(first: NDArray[np.int64], shown: int, stride: int = 1) -> tuple[NDArray[np.uint32], Ints]:
+    """The first ``shown`` strands as triangle strips: two vertices for every point, a restart after every strand; and how
+    many indices the first 0, 1, 2 ... strands take, (shown + 1,).
+
+    stride: only every so many points, and the tip.
+    """
+    steps = -(-(np.diff(first[: shown + 1]) - 1) // stride)
+    ends = np.concatenate([[0], np.cumsum(2 * steps + 3)])
+    strand = np.repeat(np.arange(shown), 2 * steps + 3)
+    place = np.arange(ends[-1]) - ends[strand]
+    point = np.minimum(first[strand] + stride * (place // 2), first[strand + 1] - 1)
+    strips = (2 * point + place % 2).astype(np.uint32)
+    strips[ends[1:] - 1] = _RESTART
+    return strips, ends
 
 
-def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint32], Ints]:
-    """The first ``shown`` strands in pieces of PIECE segments: strips (k, 2 PIECE + 3), and a point amid each, (k,).
+def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint32], Ints, Ints]:
+    """The first ``shown`` strands in pieces of PIECE segments: strips (k, 2 PIECE + 3), a point amid each, (k,), and how
+    many pieces the first 0, 1, 2 ... strands have, (shown + 1,).
 
     A shorter piece repeats its last vertices: triangles without area.
     """
@@ -86,7 +97,7 @@ def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint
     last = np.repeat(first[1 : shown + 1] - 1, pieces)
     strips = np.full((len(start), 2 * PIECE + 3), _RESTART, np.uint32)
     strips[:, :-1] = np.minimum(2 * start[:, None] + np.arange(2 * PIECE + 2), 2 * last[:, None] + 1)
-    return strips, np.minimum(start + PIECE // 2, last)
+    return strips, np.minimum(start + PIECE // 2, last), np.concatenate([[0], np.cumsum(pieces)])
 
 
 class StrandTextures:

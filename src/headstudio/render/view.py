@@ -79,7 +79,8 @@ def bounding_sphere(points: NDArray[np.floating]) -> Sphere:
     if len(points) == 0:
         return Sphere(np.zeros(3), 1.0)
     centre = (points.min(axis=0) + points.max(axis=0)).astype(float) / 2
-    return Sphere(centre, max(1.02 * float(np.linalg.norm(points - centre, axis=1).max()), 1e-3))
+    away = points - centre.astype(points.dtype)
+    return Sphere(centre, max(1.02 * float(np.einsum("ij,ij->i", away, away).max()) ** 0.5, 1e-3))
 
 
 def light_view(look: Look, centre: Floats, radius: float) -> View:

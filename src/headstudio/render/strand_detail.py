@@ -1,0 +1,87 @@
+"""How carefully strands are drawn and lit: for a picture to work with, and for one to keep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..head.frame import HeadFrame
+from ..wisp.strands import Strands
+from .strand_points import DEFAULT_RADIUS
+from .view import Sphere, View, bounding_sphere
+
+_SAMPLE = 20_000  # of the points of strands whose bends are measured
+_MOST = 80  # percent
+
+
+@dataclass(frozen=True)
+class StrandDetail:
+    """strand_pixels: strands are left out, and the others drawn wider, as long as these are no wider than so many pixels;
+    0 leaves none out. bend_pixels: every second point of the strands is left out where most bend by no more than so many
+    pixels from there to the next. sun_strands, sky_strands: how many strands, a fair sample of all, are drawn into the map
+    of the light and into those of the sky. stride: of their points only every so many. pairs: of opposite directions that
+    stand for the sky, at most 18. spacing: of the nodes where soft light is worked out [m], where the hair is not too
+    large for it.
+    """
+
+    strand_pixels: float
+    bend_pixels: float
+    sun_strands: int
+    sky_strands: int
+    stride: int
+    pairs: int
+    spacing: float
+
+
+FINE = StrandDetail(
+    strand_pixels=0.0, bend_pixels=0.0, sun_strands=20_000, sky_strands=2_500, stride=1, pairs=16, spacing=0.004
+)
+QUICK = StrandDetail(
+    strand_pixels=0.6, bend_pixels=0.6, sun_strands=5_000, sky_strands=800, stride=2, pairs=5, spacing=0.006
+)
+
+
+@dataclass(frozen=True)
+class StrandSurvey:
+    """What is to be known of strands before it is decided how carefully they are drawn."""
+
+    strands: Strands
+
+    @cached_property
+    def sphere(self) -> Sphere:
+        """Around all of them, in the head frame."""
+        return bounding_sphere(self.strands.points)
+
+    @cached_property
+    def bend(self) -> float:
+        """How far most points lie beside the straight line between their neighbours [m]."""
+        points = self.strands.points
+        inner = np.arange(1, len(points) - 1, max(len(points) // _SAMPLE, 1))
+        ends = np.isin(inner, self.strands.first) | np.isin(inner + 1, self.strands.first)
+        inner = inner[~ends]
+        aside = points[inner] - 0.5 * (points[inner - 1] + points[inner + 1])
+        return float(np.percentile(np.linalg.norm(aside, axis=1), _MOST)) if len(inner) else 0.0
+
+    @cached_property
+    def width(self) -> float:
+        """Of a strand, in the mean [m]."""
+        radius = self.strands.radius
+        return 2.0 * (DEFAULT_RADIUS if radius is None else float(radius.mean()))
+
+    def pixel(self, view: View, frame: HeadFrame, height: int) -> float:
+        """How large a pixel is at the nearest hair [m] in a picture ``height`` pixels high."""
+        distance = float(np.linalg.norm(view.eye - frame.translation - frame.rotation.apply(self.sphere.centre)))
+        return 2.0 * max(distance - self.sphere.radius, view.near) / (view.focal * height)
+
+
+def every_second(strands: Strands) -> Strands:
+    """The strands without every second of their points, but with their tips."""
+    steps = -(-(strands.counts - 1) // 2)
+    first = np.concatenate([[0], np.cumsum(steps + 1)])
+    place = np.arange(first[-1]) - np.repeat(first[:-1], steps + 1)
+    kept = np.minimum(np.repeat(strands.first[:-1], steps + 1) + 2 * place, np.repeat(strands.first[1:] - 1, steps + 1))
+    radius = None if strands.radius is None else strands.radius[kept]
+    colour = None if strands.colour is None else strands.colour[kept]
+    return replace(strands, points=strands.points[kept], first=first, radius=radius, colour=colour)
