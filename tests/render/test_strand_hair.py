@@ -16,7 +16,7 @@ from headstudio.render.fibre import Fibre, melanin_absorption, scattering
 from headstudio.render.renderer import Renderer
 from headstudio.render.scene_block import SCENE_DTYPE
 from headstudio.render.sky_light import Sky, SkyLight, SkyPrograms, irradiance
-from headstudio.render.strand_detail import FINE, StrandSurvey
+from headstudio.render.strand_detail import FINE, StrandSurvey, every_second
 from headstudio.render.strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from headstudio.render.strand_picture import StrandScene, shown, strand_picture
 from headstudio.render.strand_points import PIECE, pack, piece_indices, strip_indices
@@ -261,6 +261,33 @@ class TestOnStage:
         assert flip(final, renderer.read_pixels()) < 0.08
         renderer.render(Stage(egg), look, self.camera, (160, 160))
         assert flip(final, renderer.read_pixels()) > 0.1  # two different pictures
+
+    def test_recoloured_strands_are_as_strands_of_these_colours(self, renderer: Renderer, egg: Head) -> None:
+        def drawn(strands: Strands) -> Floats:
+            renderer.render(Stage(egg, strands=strands), Look(), self.camera, (96, 96))
+            return renderer.read_pixels().astype(float)
+
+        strands = self.stage(egg).strands
+        assert strands is not None
+        brown, red = (
+            dataclasses.replace(strands, colour=np.tile(np.float32(colour), (40_000, 1)))
+            for colour in ([0.1, 0.06, 0.04], [0.6, 0.1, 0.05])
+        )
+        before = drawn(brown)
+        hair = renderer._strands
+        recoloured = drawn(red)
+        assert renderer._strands is hair
+        renderer._strands = None
+        np.testing.assert_array_equal(drawn(red), recoloured)
+        assert np.abs(recoloured - before).max() > 20
+
+    def test_points_are_left_out_where_nobody_sees_it(self, renderer: Renderer, egg: Head) -> None:
+        strands = fur(200, points=17)
+        renderer.render(Stage(egg, strands=strands), Look(), self.camera, (64, 64))
+        assert renderer._strands is not None
+        assert renderer._strands.sparse
+        assert every_second(strands).counts.tolist() == [9] * 200
+        np.testing.assert_array_equal(every_second(strands).points[8::9], strands.points[16::17])
 
     def test_final_picture_stops(self, renderer: Renderer, egg: Head) -> None:
         done: list[int] = []

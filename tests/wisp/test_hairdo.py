@@ -10,7 +10,7 @@ from headstudio.head.frame import HeadFrame
 from headstudio.head.scalp_settings import GrayImage
 from headstudio.wisp import hairdo as hairdo_module
 from headstudio.wisp.facial_hair import facial_patches
-from headstudio.wisp.hairdo import style_hair
+from headstudio.wisp.hairdo import Stylist, style_hair
 from headstudio.wisp.joining import join_strands
 from headstudio.wisp.settings import FACIAL_HAIR, PROTOTYPES, FacialHairSettings, HairColourSettings, WispSettings
 from headstudio.wisp.styling_settings import StylingSettings
@@ -153,3 +153,48 @@ def test_sets_of_strands_are_joined_so_that_every_part_of_them_is_a_picture_of_a
 def test_facial_hair_shares_its_strands_among_its_patches(name):
     patches = facial_patches(FacialHairSettings(style=name, strands=1000))
     assert sum(patch.wisp.strands for patch in patches) == (0 if name == "none" else 1000)
+
+
+# Another value for every setting of the wisps, and what must be made again for it.
+CHANGES = {
+    "wisps": 40, "strands": 15_000, "points": 9, "segments": 5, "length": 0.17, "density_map": "thinning",
+    "length_map": "bob", "protrusion_map": "standing", "protrusion": 0.7, "parting": "right", "parting_reach": 0.03,
+    "prototype": "wavy", "curl_size": 0.5, "curl_length": 0.7, "straight_roots": 0.01, "temperature": 0.1, "window": 0.3,
+    "alignment": 0.5, "length_distribution": "frayed", "deviation_radius": "flaring", "radius": 0.6, "fuzziness": 0.7,
+    "shaft_root": 5e-5, "shaft_tip": 5e-6, "seed": 4, "length_curve": ((0.2, 1.0), (0.7, 1.0)),
+    "radius_curve": ((0.0, 1.0), (1.0, 0.2)), "prototype_curve": ((0, 0, 0), (0.01, 0.05, 0), (0, 0.1, 0.01), (0, 0.2, 0)),
+    "parting_line": ((0.3, 0.0), (0.4, 0.4)), "painted_density": GrayImage(np.linspace(0, 1, 64).reshape(8, 8)),
+    "painted_lengths": GrayImage(np.linspace(0.3, 1, 64).reshape(8, 8)),
+    "painted_protrusion": GrayImage(np.linspace(0, 1, 64).reshape(8, 8)),
+}  # fmt: skip
+
+
+class TestStylist:
+    def test_a_change_makes_the_hair_that_is_made_anew(self) -> None:
+        _, scalp, surroundings = body()
+        curly = dataclasses.replace(SMALL, wisps=50, segments=6, strands=2000, prototype="loose curl")
+        assert CHANGES.keys() == {field.name for field in dataclasses.fields(WispSettings)}
+        stylist = Stylist()
+        for name, value in CHANGES.items():
+            rest = (HairColourSettings(), StylingSettings(), 300)
+            changed = dataclasses.replace(curly, **{name: value})
+            made = stylist.style(scalp, surroundings, changed, *rest)
+            anew = style_hair(scalp, surroundings, changed, *rest)
+            assert np.array_equal(made.strands.points, anew.strands.points), name
+            assert np.array_equal(made.strands.radius, anew.strands.radius), name
+
+    def test_another_colour_leaves_the_strands_alone_and_curls_the_outlines(self) -> None:
+        _, scalp, surroundings = body()
+        stylist, steps = Stylist(), []
+        settings = dataclasses.replace(SMALL, strands=1000)
+        first = stylist.style(scalp, surroundings, settings, HairColourSettings(), StylingSettings())
+        red = stylist.style(
+            scalp, surroundings, settings, HairColourSettings(pigment="red"), StylingSettings(), None, steps.append
+        )
+        assert red.strands.points is first.strands.points
+        assert steps == ["colour"]
+        curly = dataclasses.replace(settings, prototype="coil")
+        assert (
+            stylist.style(scalp, surroundings, curly, HairColourSettings(), StylingSettings()).outlines
+            is first.outlines
+        )

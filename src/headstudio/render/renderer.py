@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.frame import HeadFrame
+from ..head.head import Head
 from ..scene.settings import TONE_MAPS, Camera, Look
 from ..scene.skin_settings import SkinSettings
 from ..scene.stage import Stage
@@ -61,6 +62,8 @@ class Renderer:
         self._adornment_programs = AdornmentPrograms(context)
         self._overlays = OverlayPass(context)
         self._sky_programs = SkyPrograms(context)
+        self._sky: SkyLight | None = None
+        self._sky_around: tuple[StrandHair, Head] | None = None
         self._sky_in: tuple[object, ...] | None = None
         self._screens = ScreenPasses(context, "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
@@ -242,6 +245,8 @@ class Renderer:
         sparse = survey.bend < detail.bend_pixels * survey.pixel(view, stage.frame, height)
         if known is None or not known.suits(survey, shown, detail, sparse):
             known = StrandHair(self.context, self._strand_programs, survey, shown, detail, sparse)
+        elif known.survey is not survey:
+            known.recolour(survey)
         self._strands = known
         return known
 
@@ -254,20 +259,18 @@ class Renderer:
 
     def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
         """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
-        material = strand_material(look)
-        wanted = (strands, look.ambient, material.absorption, look.strand_roughness)
+        material, skin = strand_material(look), stage.head.skin
+        if self._sky is None or self._sky_around != (strands, stage.head):
+            opacity, faces = self._strand_programs.opacity, coarse_faces(skin, _BODY_DETAIL)
+            self._sky = SkyLight(self.context, self._sky_programs, opacity, skin.vertices, faces, strands.detail)
+            strands.see_from_sky(self._sky)
+            self._sky_around, self._sky_in = (strands, stage.head), None
+        wanted = (strands.survey, look.ambient, look.skin_colour, material.absorption, look.strand_roughness)
         if self._sky_in == wanted:
             return
-        skin = stage.head.skin
-        opacity, faces = self._strand_programs.opacity, coarse_faces(skin, _BODY_DETAIL)
-        sky_light = SkyLight(self.context, self._sky_programs, opacity, skin.vertices, faces, strands.detail)
-        strands.see_from_sky(sky_light)
-        lost = strands.lost(material)
         sky = Sky(*sky_and_ground(look), np.array([0.0, 1.0, 0.0]))
-        sky_light.see_body(
-            linear(look.skin_colour) / np.pi * np.pi * 0.5 * np.broadcast_to(sky.above, skin.vertices.shape)
-        )
-        strands.take_soft_light(sky_light, sky, lost)
+        self._sky.see_body(0.5 * linear(look.skin_colour) * np.broadcast_to(sky.above, skin.vertices.shape))
+        strands.take_soft_light(self._sky, sky, strands.lost(material))
         self._sky_in = wanted
 
     def _light(self, stage: Stage, look: Look, hair: Hair | None, strands: StrandHair | None) -> View:

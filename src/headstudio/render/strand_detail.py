@@ -43,7 +43,7 @@ QUICK = StrandDetail(
 )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StrandSurvey:
     """What is to be known of strands before it is decided how carefully they are drawn."""
 
@@ -53,6 +53,11 @@ class StrandSurvey:
     def sphere(self) -> Sphere:
         """Around all of them, in the head frame."""
         return bounding_sphere(self.strands.points)
+
+    def same_shape(self, strands: Strands) -> bool:
+        """True if these are the same strands, whatever their colour."""
+        mine = self.strands
+        return mine.points is strands.points and mine.radius is strands.radius and mine.stands_for == strands.stands_for
 
     @cached_property
     def bend(self) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
+from ..wisp.strands import Singles
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
 from .fibre import Fibre, FibreTables, colour_absorption, colour_slope, fibre_tables, passed_on
@@ -90,7 +91,8 @@ class StrandHair:
         self._shades.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._shade_target = context.framebuffer([self._shades])
         self.opacity: DeepOpacityMap | None = None
-        self._mean_colour = None if packed.colour is None else packed.colour.mean(axis=0).astype(float)
+        self._mean_colour: Floats | None = None
+        self._paint(strands.colour)
         self._grid = grid_around(strands.points, detail.spacing)
         self._hair_view: View
         self._lit_from: tuple[bytes, bytes, int] | None = None
@@ -99,9 +101,18 @@ class StrandHair:
         self._tables: FibreTables
 
     def suits(self, survey: StrandSurvey, shown: int, detail: StrandDetail, sparse: bool) -> bool:
-        """True if these are those strands in that detail."""
-        same = self.survey is survey and self.detail == detail and self.sparse == sparse
+        """True if these are strands of that shape in that detail; their colours may be others."""
+        same = self.survey.same_shape(survey.strands) and self.detail == detail and self.sparse == sparse
         return same and self.shown == min(shown, survey.strands.count)
+
+    def recolour(self, survey: StrandSurvey) -> None:
+        """Show other colours on the same strands."""
+        self.survey = survey
+        self._paint(every_second(survey.strands).colour if self.sparse else survey.strands.colour)
+
+    def _paint(self, colour: Singles | None) -> None:
+        self._textures.paint(colour)
+        self._mean_colour = None if colour is None else colour.mean(axis=0, dtype=float)
 
     def widening(self, of: int) -> float:
         """How many times too thick the first ``of`` strands are drawn, to cover as much as all that they stand for."""

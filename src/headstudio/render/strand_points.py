@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..head.mesh import Ints
 from ..wisp.strands import Singles, Strands
+from .context import release
 
 POINT_ROW = 2048
 """Points in a row of the textures; ``point_row`` in common/strand_points.glsl."""
@@ -34,14 +35,14 @@ _RESTART = np.uint32(0xFFFFFFFF)
 class PackedStrands:
     """Shuffled strands as arrays, ready to be sent.
 
-    points: position [m] and radius [m], (p, 4). tangents: along the hair, of any length, (p, 3). colour: linear, (p, 3),
-    or None. first: where each strand starts, (n + 1,).
+    points: position [m] and radius [m], (p, 4). tangents: along the hair, of any length, (p, 3). first: where each strand
+    starts, (n + 1,). source: which of the points they were, (p,).
     """
 
     points: Singles
     tangents: Singles
-    colour: Singles | None
     first: NDArray[np.int64]
+    source: Ints
 
     @property
     def count(self) -> int:
@@ -65,7 +66,7 @@ def pack(strands: Strands) -> PackedStrands:
     tangents[start] = place[start + 1] - place[start]
     tangents[end] = place[end] - place[end - 1]
     tangents[~tangents.any(axis=1)] = _DOWN
-    return PackedStrands(points, tangents, None if strands.colour is None else strands.colour[source], first)
+    return PackedStrands(points, tangents, first, source)
 
 
 def strip_indices(first: NDArray[np.int64], shown: int, stride: int = 1) -> tuple[NDArray[np.uint32], Ints]:
@@ -107,13 +108,24 @@ class StrandTextures:
         self.rows = -(-len(packed.points) // POINT_ROW)
         self.points = self._texture(context, packed.points)
         self.tangents = self._texture(context, packed.tangents)
-        self.colour = None if packed.colour is None else self._texture(context, packed.colour)
+        self.colour: moderngl.Texture | None = None
+        self._context = context
+        self._source = packed.source
 
-    def _texture(self, context: moderngl.Context, values: Singles) -> moderngl.Texture:
+    def paint(self, colour: Singles | None) -> None:
+        """Give the points of the strands that were packed their colours, linear, (p, 3); None: they have none."""
+        if self.colour is not None:
+            release(self._context, self.colour)
+        self.colour = None
+        if colour is not None:
+            # Colours need no more than half floats.
+            self.colour = self._texture(self._context, colour[self._source].astype(np.float16), "f2")
+
+    def _texture(self, context: moderngl.Context, values: NDArray[np.floating], kind: str = "f4") -> moderngl.Texture:
         parts = values.shape[1]
-        padded = np.zeros((self.rows * POINT_ROW, parts), np.float32)
+        padded = np.zeros((self.rows * POINT_ROW, parts), values.dtype)
         padded[: len(values)] = values
-        texture = context.texture((POINT_ROW, self.rows), parts, padded, dtype="f4")
+        texture = context.texture((POINT_ROW, self.rows), parts, padded, dtype=kind, alignment=1)
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         return texture
 

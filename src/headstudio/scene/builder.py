@@ -17,7 +17,7 @@ from ..lcp.body import Body
 from ..lcp.grow import grow_hair
 from ..lcp.model import HairModel
 from ..wisp.facial_hair import FacialPatch, facial_patches
-from ..wisp.hairdo import Hairdo, style_hair
+from ..wisp.hairdo import Hairdo, Stylist
 from ..wisp.joining import join_strands
 from ..wisp.surroundings import Surroundings
 from ..wrinkle.face import Face
@@ -52,6 +52,7 @@ class Builder:
     def __init__(self, announce: Callable[[str], None] = lambda part: None) -> None:
         # The part of each kind that was made last, with what it was made from.
         self._made: dict[str, tuple[Any, Any]] = {}
+        self._stylists: dict[str, Stylist] = {}
         self._announce = announce
 
     def build(self, document: Document) -> Built:
@@ -87,7 +88,7 @@ class Builder:
         """
         scalp, surroundings = self.scalp(document), self.surroundings(document)
         wanted = (scalp, surroundings, document.wisp, document.colour, document.styling, strands)
-        hairdo = self._part("hairdo", wanted, lambda: style_hair(*wanted, announce=self._announce))
+        hairdo = self._part("hairdo", wanted, lambda: self._stylist("head").style(*wanted, announce=self._announce))
         faces = [
             self._facial_hair(document, patch, hairdo.strands.stands_for) for patch in facial_patches(document.beard)
         ]
@@ -98,11 +99,14 @@ class Builder:
         )
         return replace(hairdo, strands=joined)
 
+    def _stylist(self, region: str) -> Stylist:
+        return self._stylists.setdefault(region, Stylist())
+
     def _facial_hair(self, document: Document, patch: FacialPatch, stands_for: float) -> Hairdo:
         skin, surroundings = self._facial_skin(document, patch.region), self.surroundings(document)
         strands = math.ceil(patch.wisp.strands / stands_for)
         wanted = (skin, surroundings, patch.wisp, document.colour, patch.styling, strands)
-        return self._part(patch.region, wanted, lambda: style_hair(*wanted))
+        return self._part(patch.region, wanted, lambda: self._stylist(patch.region).style(*wanted))
 
     def _facial_skin(self, document: Document, region: str) -> Scalp:
         """The skin that a beard or a moustache grows on. Its hair leans away from the middle of the lips."""

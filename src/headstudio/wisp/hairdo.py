@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from .colour import strand_colours
 from .curves import LengthDistribution
 from .cutting import Blade, cut_strands
 from .deform import DeformReport, deform
-from .follicles import scatter_strands, spread_wisps
+from .follicles import Regions, scatter_strands, spread_wisps
 from .maps import density_map
 from .markov import Singles
 from .masters import master_controls, synthesise_details
@@ -34,6 +35,8 @@ from .surroundings import Surroundings
 _BLOCK = 8192
 _CLEARANCE = 0.0005  # of strands from the skin [m]
 
+MadeT = TypeVar("MadeT")
+
 
 @dataclass(frozen=True, eq=False)
 class Hairdo:
@@ -50,6 +53,88 @@ class Hairdo:
     adornments: tuple[Adornment, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class _Laid:
+    """Wisps as they lie. rest: the outlines before they were bent, outlines: after. lengths: of the masters [m], (W,)."""
+
+    regions: Regions
+    rest: Outlines
+    lengths: Floats
+    outlines: Outlines
+    report: DeformReport
+
+
+@dataclass(frozen=True, eq=False)
+class _Grown:
+    """Strands that have no colour yet, the wisp of each, (S,), and the control points of the masters."""
+
+    strands: Strands
+    owner: Ints
+    controls: Singles
+
+
+# What does not change how wisps lie: the first of these shape the curls around their outlines, the others the strands.
+_CURLS = (
+    "prototype", "prototype_curve", "curl_size", "curl_length", "straight_roots", "temperature", "window", "alignment",
+)  # fmt: skip
+_STRANDS = ("points", "length_distribution", "length_curve", "fuzziness", "shaft_root", "shaft_tip")
+_OUTLINES = tuple(field.name for field in fields(WispSettings) if field.name not in (*_CURLS, *_STRANDS))
+
+
+class Stylist:
+    """Styles one head of hair again and again, and makes again only what a change concerns: other curls grow on wisps that
+    lie as they lay, and other colours on the same strands. Not for several threads at once.
+    """
+
+    def __init__(self) -> None:
+        # The last result of every step, with what it was made from.
+        self._made: dict[str, tuple[Any, Any]] = {}
+
+    def style(
+        self,
+        scalp: Scalp,
+        surroundings: Surroundings,
+        wisp: WispSettings,
+        colour: HairColourSettings,
+        styling: StylingSettings,
+        strands: int | None = None,
+        announce: Callable[[str], None] = lambda step: None,
+    ) -> Hairdo:
+        """As ``style_hair``."""
+
+        def step(name: str, wanted: Any, make: Callable[[], MadeT]) -> MadeT:
+            if name not in self._made or self._made[name][0] != wanted:
+                self._made[name] = (wanted, make())
+            made: MadeT = self._made[name][1]
+            return made
+
+        bare = replace(styling, cuts=(), accessories=())
+        laid = step(
+            "laid",
+            (scalp, surroundings, [getattr(wisp, name) for name in _OUTLINES], bare),
+            lambda: _lay(scalp, surroundings, wisp, bare, announce),
+        )
+        count = wisp.strands if strands is None else min(strands, wisp.strands)
+        grown = step(
+            "grown",
+            (laid, wisp, styling.cuts, count),
+            lambda: _grow(laid, scalp, surroundings, wisp, styling, count, announce),
+        )
+        worn = step(
+            "worn",
+            (laid.rest, styling.accessories, styling.operations),
+            lambda: adorn(styling, surroundings, float(laid.rest.counts.max(initial=0) * laid.rest.segment)),
+        )
+        announce("colour")
+        colours = step(
+            "colours",
+            (grown, colour),
+            lambda: strand_colours(colour, grown.owner, laid.regions.count, wisp.points).reshape(-1, 3),
+        )
+        coloured = replace(grown.strands, colour=colours)
+        return Hairdo(coloured, laid.outlines, grown.controls, laid.report, worn)
+
+
 def style_hair(
     scalp: Scalp,
     surroundings: Surroundings,
@@ -64,35 +149,52 @@ def style_hair(
     strands: make only the first so many of the strands; they are a thinned picture of the whole. ``announce`` is told
     what is being done. Raises ParameterError for curves that cannot be used.
     """
+    return Stylist().style(scalp, surroundings, wisp, colour, styling, strands, announce)
+
+
+def _lay(
+    scalp: Scalp,
+    surroundings: Surroundings,
+    wisp: WispSettings,
+    styling: StylingSettings,
+    announce: Callable[[str], None],
+) -> _Laid:
+    """Spread the wisps and let them lie."""
     announce("wisps")
     parting = Parting.of(scalp, wisp)
     regions = spread_wisps(scalp, density_map(wisp), wisp.wisps, parting, wisp.seed)
     rest, lengths = rest_outlines(scalp, regions, parting, wisp)
-    details = synthesise_details(rest, wisp)
-
     announce("flow")
     outlines, report = deform(rest, surroundings, styling, scalp)
-    controls = master_controls(outlines, details)
-
-    announce("strands")
-    count = wisp.strands if strands is None else min(strands, wisp.strands)
-    roots, owner = scatter_strands(regions, count, wisp.seed)
-    masters = Masters(controls, details.per_segment, outlines.radii.astype(np.float32), lengths / outlines.segment)
-    uv = scalp.locate(rest.roots)
-    blades = [Blade.of(cut, surroundings.proportions, uv) for cut in styling.cuts]
-    points = _grow(masters, roots, owner, wisp, surroundings, blades)
-
-    worn = adorn(styling, surroundings, float(rest.counts.max(initial=0) * rest.segment))
-
-    announce("colour")
-    colours = strand_colours(colour, owner, regions.count, wisp.points)
-    shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
-    radius = np.broadcast_to(shaft, points.shape[:2])
-    made = Strands.of_equal_count(points, radius, colours, owner.astype(np.int32))
-    return Hairdo(replace(made, stands_for=wisp.strands / count), outlines, controls, report, worn)
+    return _Laid(regions, rest, lengths, outlines, report)
 
 
 def _grow(
+    laid: _Laid,
+    scalp: Scalp,
+    surroundings: Surroundings,
+    wisp: WispSettings,
+    styling: StylingSettings,
+    count: int,
+    announce: Callable[[str], None],
+) -> _Grown:
+    """Grow ``count`` strands around the masters of wisps that lie."""
+    announce("strands")
+    details = synthesise_details(laid.rest, wisp)
+    outlines = laid.outlines
+    controls = master_controls(outlines, details)
+    roots, owner = scatter_strands(laid.regions, count, wisp.seed)
+    masters = Masters(controls, details.per_segment, outlines.radii.astype(np.float32), laid.lengths / outlines.segment)
+    uv = scalp.locate(laid.rest.roots)
+    blades = [Blade.of(cut, surroundings.proportions, uv) for cut in styling.cuts]
+    points = _member_strands(masters, roots, owner, wisp, surroundings, blades)
+    shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
+    radius = np.broadcast_to(shaft, points.shape[:2])
+    made = Strands.of_equal_count(points, radius, None, owner.astype(np.int32))
+    return _Grown(replace(made, stands_for=wisp.strands / count), owner, controls)
+
+
+def _member_strands(
     masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings, surroundings: Surroundings, blades: list[Blade]
 ) -> Singles:
     """Points of all member strands outside the head [m], (S, points, 3): each block on whichever processor is free."""
