@@ -66,11 +66,16 @@ def test_triangles_are_small_at_the_floor_and_left_alone_far_away(name):
     refined = bed.refined
     edges = refined.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     middle = refined.vertices[edges].mean(axis=1)
-    length = np.linalg.norm(refined.vertices[edges[:, 0]] - refined.vertices[edges[:, 1]], axis=1)
+    along = refined.vertices[edges[:, 1]] - refined.vertices[edges[:, 0]]
+    length = np.linalg.norm(along, axis=1)
     line = np.concatenate([laid.line(1e-4) for laid in bed.furrows])
-    distance, _ = cKDTree(line).query(middle)
+    direction = np.concatenate([np.gradient(laid.line(1e-4), axis=0) for laid in bed.furrows])
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    distance, nearest = cKDTree(line).query(middle)
+    across = np.linalg.norm(along - (along * direction[nearest]).sum(axis=1, keepdims=True) * direction[nearest], axis=1)
     # Cutting along the floor moves a corner by less than half an edge.
-    assert length[distance < 0.3 * CURVED.width].max() < 1.6 * 0.25 * CURVED.width
+    assert across[distance < 0.3 * CURVED.width].max() < 1.6 * 0.25 * CURVED.width
+    assert length[distance < 0.3 * CURVED.width].max() < 2.5 * 1.6 * 0.25 * CURVED.width
     untouched = np.isin(refined.faces, np.arange(len(refined.coarse.vertices))).all(axis=1)
     assert length.reshape(-1, 3)[untouched].max() > 2 * length[distance < 0.3 * CURVED.width].max()
     assert length[distance > 8 * CURVED.width].mean() > 0.8 * np.sqrt(refined.coarse.face_areas.mean())

@@ -1,6 +1,6 @@
 """Smaller triangles around furrows, and only there (after Volino and Magnenat-Thalmann 1999).
 
-Edges are halved where they are longer than the furrows near them ask for; a triangle always gives up its longest edge
+Edges are halved where they are longer than the furrows near them ask for in their direction; a triangle always gives up its longest edge
 first (Rivara 1984), so that no angle gets small however often it is split, and both triangles at an edge split it
 alike, so that there is no crack and no T-junction.
 """
@@ -9,15 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from .refined_mesh import RefinedMesh
+from .smooth_surface import unit
 
 # How long edges may be at a distance from a furrow, both in widths: near the sharp floor, on the bulge, on its slope.
 _BANDS = ((0.7, 1.0), (2.6, 2.2), (5.0, 5.0))
+# Along a furrow its profile hardly changes: edges may be so many times as long there as across it.
+_ALONG = 2.5
 _MOST_ROUNDS = 40
 
 
@@ -28,14 +32,23 @@ class FurrowLine:
     points: Floats
     width: float
 
+    @cached_property
+    def tree(self) -> cKDTree:
+        """For the nearest point."""
+        return cKDTree(self.points)
+
+    @cached_property
+    def directions(self) -> Floats:
+        """Unit vectors along the furrow at its points, (k, 3)."""
+        return unit(np.gradient(self.points, axis=0))
+
 
 def refine_around(mesh: TriangleMesh, lines: Sequence[FurrowLine], fineness: float) -> RefinedMesh:
     """Halve the edges of ``mesh`` until around every furrow they are at most ``fineness`` widths long.
 
-    fineness: length of edges at the floor of a furrow over its width; farther away they may be longer.
+    fineness: length of edges across the floor of a furrow over its width; farther away and along it they may be longer.
     """
     refined = RefinedMesh.unrefined(mesh)
-    trees = [(line, cKDTree(line.points)) for line in lines]
     known = 0
     for _ in range(_MOST_ROUNDS):
         edges, edge_of = unique_edges(refined.faces)
@@ -45,8 +58,7 @@ def refine_around(mesh: TriangleMesh, lines: Sequence[FurrowLine], fineness: flo
         fresh = edges[:, 1] >= known
         known = len(refined.home)
         marked = np.zeros(len(edges), dtype=bool)
-        allowed = _allowed(0.5 * (start + end)[fresh], 0.5 * length[fresh], trees, fineness)
-        marked[fresh] = length[fresh] > allowed
+        marked[fresh] = length[fresh] > _allowed(start[fresh], end[fresh], lines, fineness)
         if not marked.any():
             break
         marked = _longest_first(marked, edge_of, length)
@@ -63,17 +75,22 @@ def unique_edges(faces: Ints) -> tuple[Ints, Ints]:
     return np.stack(np.divmod(keys, count), axis=1), edge_of.reshape(-1, 3)
 
 
-def _allowed(middles: Floats, halves: Floats, trees: Sequence[tuple[FurrowLine, cKDTree]], fineness: float) -> Floats:
-    """How long each edge may be [m], (e,), from its middle and half its length."""
-    allowed = np.full(len(middles), np.inf)
-    for line, tree in trees:
+def _allowed(start: Floats, end: Floats, lines: Sequence[FurrowLine], fineness: float) -> Floats:
+    """How long the edges from ``start`` to ``end``, (e, 3) each, may be [m], (e,)."""
+    allowed = np.full(len(start), np.inf)
+    middles, halves = 0.5 * (start + end), 0.5 * np.linalg.norm(end - start, axis=1)
+    for line in lines:
         reach = _BANDS[-1][0] * line.width
         low, high = line.points.min(axis=0) - reach, line.points.max(axis=0) + reach
         near = np.flatnonzero(((middles + halves[:, None] > low) & (middles - halves[:, None] < high)).all(axis=1))
-        away = np.maximum(tree.query(middles[near])[0] - 0.5 * halves[near], 0.0)
-        for distance, length in reversed(_BANDS):
-            inside = near[away < distance * line.width]
-            allowed[inside] = np.minimum(allowed[inside], length * fineness * line.width)
+        distance, nearest = line.tree.query(middles[near])
+        away = np.maximum(distance - 0.5 * halves[near], 0.0)
+        cosine = np.einsum("ij,ij->i", unit((end - start)[near]), line.directions[nearest])
+        # The length whose part across the furrow, and whose part along it over _ALONG, together make 1.
+        longer = 1.0 / np.sqrt(np.maximum(1.0 - cosine**2 * (1.0 - _ALONG**-2), _ALONG**-2))
+        for band, length in reversed(_BANDS):
+            inside = away < band * line.width
+            allowed[near[inside]] = np.minimum(allowed[near[inside]], length * fineness * line.width * longer[inside])
     return allowed
 
 
