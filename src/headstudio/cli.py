@@ -10,6 +10,8 @@ from typing import Annotated, Any
 
 import typer
 
+from .memory import keep_freed_memory
+
 app = typer.Typer(
     name="headstudio",
     add_completion=False,
@@ -449,6 +451,7 @@ def version() -> None:
 
 def main() -> None:
     """What the word ``headstudio`` runs."""
+    keep_freed_memory()
     try:
         app()
     except KeyboardInterrupt:

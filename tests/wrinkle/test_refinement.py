@@ -72,7 +72,9 @@ def test_triangles_are_small_at_the_floor_and_left_alone_far_away(name):
     direction = np.concatenate([np.gradient(laid.line(1e-4), axis=0) for laid in bed.furrows])
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
     distance, nearest = cKDTree(line).query(middle)
-    across = np.linalg.norm(along - (along * direction[nearest]).sum(axis=1, keepdims=True) * direction[nearest], axis=1)
+    across = np.linalg.norm(
+        along - (along * direction[nearest]).sum(axis=1, keepdims=True) * direction[nearest], axis=1
+    )
     # Cutting along the floor moves a corner by less than half an edge.
     assert across[distance < 0.3 * CURVED.width].max() < 1.6 * 0.25 * CURVED.width
     assert length[distance < 0.3 * CURVED.width].max() < 2.5 * 1.6 * 0.25 * CURVED.width

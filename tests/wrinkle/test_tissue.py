@@ -24,10 +24,11 @@ def test_even_compression_lifts_by_the_printed_amount(squeeze, spread):
     mesh = sheet()
     lift = TissueLift(mesh, spread=spread)
     pressed = mesh.vertices * [squeeze, 1.0, 1.0]
-    np.testing.assert_allclose(lift.expansion(pressed), squeeze, rtol=1e-9)
+    # Areas are measured in single precision: the lift is right within some ten nanometres.
+    np.testing.assert_allclose(lift.expansion(pressed), squeeze, rtol=2e-5)
     lifted = lift.lifted(pressed, np.full(len(pressed), THICKNESS))
-    np.testing.assert_allclose(lifted[:, 2], THICKNESS / squeeze - THICKNESS, rtol=1e-9, atol=1e-12)
-    np.testing.assert_allclose(lifted[:, :2], pressed[:, :2], atol=1e-12)
+    np.testing.assert_allclose(lifted[:, 2], THICKNESS / squeeze - THICKNESS, rtol=1e-5, atol=1e-7)
+    np.testing.assert_allclose(lifted[:, :2], pressed[:, :2], atol=1e-9)
 
 
 def test_the_lift_keeps_the_volume_of_the_tissue():

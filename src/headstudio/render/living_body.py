@@ -9,7 +9,6 @@ from ..lcp.model import HairModel
 from ..scene.settings import Look
 from ..wrinkle.living_skin import LivingSkin, SkinSurface
 from .body_parts import BodyParts, hidden_of_head
-from .buffers import bytes_of
 from .skin_body import SkinBody, SkinPrograms
 from .skin_paint import scalp_cover
 from .skin_shape import MOST_HIDDEN, pose_of, shape_of, smooth_pose_of
@@ -33,7 +32,7 @@ class LivingBody(SkinBody):
     def set_roots(self, hair: HairModel | None) -> None:
         """Cover the skin that ``hair`` grows from; sent again only for another model."""
         if hair is not self._roots_of:
-            self.cover.write(bytes_of(self.surface.spread(scalp_cover(self.head, hair))))
+            self.cover(self.surface.spread(scalp_cover(self.head, hair)))
             self._roots_of = hair
 
     def pose(self, skin: LivingSkin, look: Look) -> None:

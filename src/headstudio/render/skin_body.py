@@ -8,7 +8,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from ..head.mesh import TriangleMesh
+from ..head.mesh import Floats, Ints, TriangleMesh
 from ..scene.settings import Look
 from ..scene.skin_settings import MODELS, SkinSettings
 from . import lafortune
@@ -21,7 +21,7 @@ from .scattering import STEEPEST, scattering_table, scattering_taps
 from .scene_block import linear
 from .screen import ScreenPasses
 from .skin_colour import HAEMOGLOBIN, skin_colour
-from .skin_shape import BLOOD_MEAN, SkinPose, SkinShape
+from .skin_shape import BLOOD_MEAN, SkinPose, SkinShape, order_of_use
 from .skin_values import scale_colours
 from .targets import PictureTargets
 from .view import View
@@ -60,31 +60,30 @@ class SkinBody:
         self.programs = programs
         self._openings = Openings(whole)
         self._relief = FineRelief(context, shape.fine)
-        body = np.column_stack([shape.turning, shape.curvature, shape.mapped])
-        count = len(shape.rest)
+        self._order = order = order_of_use(shape.faces, len(shape.rest))
+        place = np.empty_like(order)
+        place[order] = np.arange(len(order))
+        body = np.column_stack([shape.rest, shape.uv, shape.turning, shape.curvature, shape.mapped])[order]
         self._constants = [
-            (
-                context.buffer(floats_of(np.column_stack([shape.rest, shape.uv, body]))),
-                "3f 2f 3f",
-                "rest",
-                "uv",
-                "body",
-            ),
-            (context.buffer(bytes_of(shape.painted)), "4f1", "paint"),
+            (context.buffer(floats_of(body)), "3f 2f 3f", "rest", "uv", "body"),
+            (context.buffer(bytes_of(shape.painted[order])), "4f1", "paint"),
         ]
-        self.cover = context.buffer(bytes_of(np.zeros(count)))
-        self._faces = context.buffer(indices_of(shape.faces))
-        self._count = count
+        self._cover = context.buffer(bytes_of(np.zeros(len(order))))
+        self._faces = context.buffer(indices_of(place[shape.faces]))
         self._posed = self._array()
         self._smooth: _PosedSkin | None = None
         self._shadow = context.vertex_array(
             programs.depth,
             [
-                (self._posed.vertices, "3f 12x", "position"),
-                (context.buffer(floats_of(shape.turning)), "1f", "head_weight"),
+                (self._posed.vertices, "3f 28x", "position"),
+                (context.buffer(floats_of(shape.turning[order])), "1f", "head_weight"),
             ],
-            context.buffer(indices_of(shape.shadow_faces)),
+            context.buffer(indices_of(place[shape.shadow_faces])),
         )
+
+    def cover(self, cover: Floats) -> None:
+        """How densely hair stands on every vertex, 0 to 1, (N,), from now on."""
+        self._cover.write(bytes_of(cover[self._order]))
 
     def take(self, pose: SkinPose) -> None:
         """Show this pose from now on."""
@@ -196,9 +195,8 @@ class SkinBody:
         """What belongs to the body and is no skin, into the framebuffer in use: nothing, unless a body has parts."""
 
     def _array(self) -> _PosedSkin:
-        return _PosedSkin(
-            self.context, self.programs, self._count, [*self._constants, (self.cover, "1f1", "cover")], self._faces
-        )
+        constants = [*self._constants, (self._cover, "1f1", "cover")]
+        return _PosedSkin(self.context, self.programs, self._order, constants, self._faces)
 
 
 class _PosedSkin:
@@ -208,20 +206,26 @@ class _PosedSkin:
         self,
         context: moderngl.Context,
         programs: SkinPrograms,
-        count: int,
+        order: Ints,
         constants: list[tuple[object, ...]],
         faces: moderngl.Buffer,
     ) -> None:
+        """order: the vertices as they are drawn, (N,)."""
         self._program = programs.surface
-        self.vertices = context.buffer(reserve=24 * count, dynamic=True)
-        self._states = context.buffer(reserve=16 * count, dynamic=True)
-        changing = [(self.vertices, "3f 3f", "position", "normal"), (self._states, "4f", "state")]
-        self._array = context.vertex_array(self._program, [*changing, *constants], faces)
+        self._order = order
+        # What comes in double precision and column by column, as it goes to the graphics card.
+        self._rows = np.empty((len(order), 10), dtype=np.float32)
+        self._ordered = np.empty_like(self._rows)
+        self.vertices = context.buffer(reserve=self._rows.nbytes, dynamic=True)
+        changing = (self.vertices, "3f 3f 4f", "position", "normal", "state")
+        self._array = context.vertex_array(self._program, [changing, *constants], faces)
 
     def write(self, pose: SkinPose) -> None:
         """Send a pose."""
-        self.vertices.write(floats_of(np.concatenate([pose.positions, pose.normals], axis=1)))
-        self._states.write(floats_of(np.column_stack([pose.amplitudes, pose.hidden, pose.value])))
+        rows = self._rows
+        rows[:, :3], rows[:, 3:6], rows[:, 6:8] = pose.positions, pose.normals, pose.amplitudes
+        rows[:, 8], rows[:, 9] = pose.hidden, pose.value
+        self.vertices.write(rows.take(self._order, axis=0, out=self._ordered, mode="clip"))
 
     def draw(self, fine: bool) -> None:
         """Into the framebuffer in use."""

@@ -162,6 +162,16 @@ def neighbours_together(faces: Ints, points: Floats) -> Ints:
     return faces[np.argsort(curve, kind="stable")]
 
 
+def order_of_use(faces: Ints, count: int) -> Ints:
+    """All of ``count`` vertices as triangles, (m, 3), first need them, those that none needs last: (count,).
+
+    Where vertices that are used together lie together, fewer of them are worked out twice.
+    """
+    order, first = np.unique(faces, return_index=True)
+    used: Ints = order[np.argsort(first, kind="stable")]
+    return np.concatenate([used, np.setdiff1d(np.arange(count), order)])
+
+
 def faded_in(rest: Floats, mapped: Floats) -> Floats:
     """From 0 where the skin is not mapped to 1 at some distance from there, (N,). rest: positions [m], (N, 3)."""
     outside = rest[mapped <= 0]

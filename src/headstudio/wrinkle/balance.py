@@ -6,7 +6,8 @@ import numpy as np
 
 from ..head.mesh import Floats
 from .furrow_bed import FurrowBed
-from .smooth_surface import PosedSurface, SmoothSurface, cross
+from .smooth_surface import PosedSurface, SmoothSurface
+from .vectors import cross
 
 # A furrow that runs along a border has no room for one of its bulges; the other does not grow without bounds.
 _MOST = 0.2

@@ -21,7 +21,8 @@ from .metric import perpendicular, vertex_metrics
 from .self_contact import Folds
 from .shape import amplitude, bounded_shape, bounded_slope
 from .shrinkage import Measure, ShrinkageGauge, shrinkage_gauge
-from .smooth_surface import SmoothSurface, unit
+from .smooth_surface import SmoothSurface
+from .vectors import unit
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import igl
 import numpy as np
+from scipy import sparse
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
@@ -84,23 +85,20 @@ class LashMotion:
     def __init__(self, part: Part, head: Head, lids: Lids) -> None:
         self._part = part
         self._lids = lids
-        vertices = part.mesh.vertices
-        self._roots = vertices[_hair_roots(part.mesh, lids.centre)]
-        skin = head.skin.vertices[lids.vertices]
-        distance, near = cKDTree(skin).query(self._roots, k=_CARRIERS)
-        self._carriers = lids.vertices[near]
-        self._rest = skin[near].reshape(-1, 3)
-        self._rest_turn = near
+        self._roots = part.mesh.vertices[_hair_roots(part.mesh, lids.centre)]
+        self._rest = head.skin.vertices[lids.vertices]
+        distance, near = cKDTree(self._rest).query(self._roots, k=_CARRIERS)
         weight = 1.0 / (distance + _SOFT) ** 2
-        self._weight = (weight / weight.sum(axis=1, keepdims=True))[..., None]
+        weight /= weight.sum(axis=1, keepdims=True)
+        starts = np.arange(0, near.size + 1, _CARRIERS)
+        self._carried = sparse.csr_array((weight.ravel(), near.ravel(), starts), shape=(len(near), len(self._rest)))
 
     def posed(self, positions: Floats, upper: float, lower: float) -> Part:
         """The part on the skin at ``positions`` [m], (n, 3), with the lids of its eye closed so far."""
         lids = self._lids
-        turn = lids.turns(upper, lower)[self._rest_turn]
-        carried = positions[self._carriers] - lids.turned(self._rest, turn.ravel()).reshape((*self._carriers.shape, 3))
+        besides = positions[lids.vertices] - lids.turned(self._rest, lids.turns(upper, lower))
         margin = lids.margin_turns(self._roots, upper, lower)
-        vertices = lids.turned(self._part.mesh.vertices, margin) + (self._weight * carried).sum(axis=1)
+        vertices = lids.turned(self._part.mesh.vertices, margin) + self._carried @ besides
         return replace(self._part, mesh=self._part.mesh.moved(vertices))
 
     @property

@@ -1,8 +1,8 @@
 """Smaller triangles around furrows, and only there (after Volino and Magnenat-Thalmann 1999).
 
-Edges are halved where they are longer than the furrows near them ask for in their direction; a triangle always gives up its longest edge
-first (Rivara 1984), so that no angle gets small however often it is split, and both triangles at an edge split it
-alike, so that there is no crack and no T-junction.
+Edges are halved where they are longer than the furrows near them ask for in their direction; a triangle always gives up
+its longest edge first (Rivara 1984), so that no angle gets small however often it is split, and both triangles at an edge
+split it alike, so that there is no crack and no T-junction.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from .refined_mesh import RefinedMesh
-from .smooth_surface import unit
+from .vectors import unit
 
 # How long edges may be at a distance from a furrow, both in widths: near the sharp floor, on the bulge, on its slope.
 _BANDS = ((0.7, 1.0), (2.6, 2.2), (5.0, 5.0))

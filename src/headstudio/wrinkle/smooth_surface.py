@@ -15,6 +15,7 @@ from scipy import sparse
 from ..head.mesh import Floats, Ints, TriangleMesh
 from .refined_mesh import RefinedMesh
 from .skin_layout import SkinLayout
+from .vectors import AreaVectors, cross, unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,19 +51,20 @@ class SmoothSurface:
         self._blend_used = sparse.csr_array(self._blend[:, self._used])
         # Directions need no more than single precision, and half the memory goes twice as fast.
         self._blend_directions = self._blend_used.astype(np.float32)
-        self._by_u, self._by_v = (sparse.csr_array(matrix[self._used]) for matrix in gradient_matrices(layout))
+        gradients = [matrix[self._used] for matrix in gradient_matrices(layout)]
+        self._gradients = sparse.csr_array(sparse.vstack(gradients)).astype(np.float32)
         self._lift = self._lift_at_rest(refined, skin)
 
     def at(self, posed: Floats) -> PosedSurface:
         """The surface for posed positions of the skin [m], (n, 3)."""
         coarse_normals = self._normals.at(posed)
         n = coarse_normals[self._used]
-        tangent_u, tangent_v = self._by_u @ posed, self._by_v @ posed
+        tangent_u, tangent_v = (self._gradients @ posed.astype(np.float32)).reshape(2, -1, 3)
         across_u, across_v = cross(tangent_v, n), cross(n, tangent_u)
         area = np.einsum("ij,ij->i", tangent_u, across_u)
         # Where nothing is mapped, or a pose has crushed the skin flat, a height has no slope.
         share = np.divide(1.0, area, out=np.zeros_like(area), where=np.abs(area) > 1e-12)[:, None]
-        directions = np.concatenate([n, share * across_u, share * across_v], axis=1).astype(np.float32)
+        directions = np.concatenate([n, share * across_u, share * across_v], axis=1)
         blended = self._blend_directions @ directions
         normals = unit(blended[:, :3])
         positions = self._blend_used @ posed[self._used] + self._lift[:, None] * normals
@@ -86,15 +88,15 @@ class NormalsOf:
 
     def __init__(self, faces: Ints, count: int) -> None:
         """faces: (m, 3). count: of vertices."""
-        self._corners = [np.ascontiguousarray(faces[:, k]) for k in range(3)]
+        self._areas = AreaVectors(faces)
         rows = faces.T.ravel()
         columns = np.tile(np.arange(len(faces)), 3)
-        self._gather = sparse.coo_array((np.ones(len(rows)), (rows, columns)), shape=(count, len(faces))).tocsr()
+        ones = np.ones(len(rows), dtype=np.float32)
+        self._gather = sparse.coo_array((ones, (rows, columns)), shape=(count, len(faces))).tocsr()
 
     def at(self, positions: Floats) -> Floats:
-        """Normals for positions [m], (n, 3): (n, 3)."""
-        a, b, c = (positions[corner] for corner in self._corners)
-        return unit(self._gather @ cross(b - a, c - a))
+        """Normals for positions [m], (n, 3): (n, 3), in single precision."""
+        return unit(self._gather @ np.ascontiguousarray(self._areas.at(positions).T))
 
 
 def gradient_matrices(layout: SkinLayout) -> tuple[sparse.csr_array, sparse.csr_array]:
@@ -118,18 +120,3 @@ def gradient_matrices(layout: SkinLayout) -> tuple[sparse.csr_array, sparse.csr_
         shares = (np.tile(values, (1, 3)) * weight[:, None]).ravel() / total[rows]
         matrices.append(sparse.coo_array((shares, (rows, columns)), shape=(count, count)).tocsr())
     return matrices[0], matrices[1]
-
-
-def cross(a: Floats, b: Floats) -> Floats:
-    """Cross products, (k, 3); some three times as fast as numpy's."""
-    out = np.empty_like(a)
-    out[:, 0] = a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1]
-    out[:, 1] = a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2]
-    out[:, 2] = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    return out
-
-
-def unit(vectors: Floats) -> Floats:
-    """Vectors scaled to length 1, (k, 3); zero stays zero."""
-    squared = np.einsum("ij,ij->i", vectors, vectors)
-    return vectors / np.sqrt(np.maximum(squared, np.finfo(vectors.dtype).tiny))[:, None]

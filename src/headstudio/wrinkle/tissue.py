@@ -7,6 +7,7 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
+from .vectors import AreaVectors, unit
 
 SPREAD = 0.010
 """How far tissue that is pressed together gives way to the sides [m]: about as far as it is thick."""
@@ -31,13 +32,13 @@ class TissueLift:
         local = np.zeros(len(mesh.vertices), dtype=np.int64)
         local[self.vertices] = np.arange(len(self.vertices))
         corner = local[self._faces]
-        self._corners = tuple(np.ascontiguousarray(corner[:, k]) for k in range(3))
+        self._areas = AreaVectors(corner)
         triangles = np.repeat(np.arange(len(corner)), 3)
         shape = (len(self.vertices), len(corner))
-        self._around = sparse.csr_array((np.ones(corner.size), (corner.ravel(), triangles)), shape=shape)
+        self._around = sparse.csr_array((np.ones(corner.size, np.float32), (corner.ravel(), triangles)), shape=shape)
         self._degree = np.maximum(self._around.sum(axis=1), 1.0)
         points, normals = mesh.vertices[self.vertices], mesh.vertex_normals[self.vertices]
-        self._rest_area = np.linalg.norm(self._crosses(points), axis=1)
+        self._rest_area = _lengths(self._areas.at(points))
         self._evening = _evening(points, normals, self._around @ self._rest_area, spread) if spread > 0 else None
 
     def expansion(self, positions: Floats) -> Floats:
@@ -45,37 +46,30 @@ class TissueLift:
 
         positions: of all vertices of the mesh [m], (n, 3).
         """
-        return self._mean_ratio(self._crosses(positions[self.vertices]))
+        return self._mean_ratio(self._areas.at(positions[self.vertices]))
 
     def lifted(self, positions: Floats, thickness: Floats) -> Floats:
         """``positions``, (n, 3) [m], displaced along their normals by h / e - h with the thickness h at rest [m], (n,)."""
-        crosses = self._crosses(positions[self.vertices])
-        gain = 1.0 / self._mean_ratio(crosses) - 1.0
+        areas = self._areas.at(positions[self.vertices])
+        gain = 1.0 / self._mean_ratio(areas) - 1.0
         if self._evening is not None:
             to_nodes, to_vertices = self._evening
             gain = to_vertices @ (to_nodes @ gain)
-        normals = self._around @ crosses
-        length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
+        normals = unit(self._around @ np.ascontiguousarray(areas.T))
         lifted = positions.copy()
-        lifted[self.vertices] += (thickness[self.vertices] * gain / np.maximum(length, 1e-30))[:, None] * normals
+        lifted[self.vertices] += (thickness[self.vertices] * gain)[:, None] * normals
         return lifted
 
-    def _crosses(self, points: Floats) -> Floats:
-        """Twice the area of every triangle along its normal [m^2], (m, 3)."""
-        a, b, c = (points[corner] for corner in self._corners)
-        b -= a
-        c -= a
-        crosses = np.empty_like(b)
-        for k in range(3):
-            i, j = (k + 1) % 3, (k + 2) % 3
-            crosses[:, k] = b[:, i] * c[:, j] - b[:, j] * c[:, i]
-        return crosses
-
-    def _mean_ratio(self, crosses: Floats) -> Floats:
-        area = np.sqrt(np.einsum("ij,ij->i", crosses, crosses))
+    def _mean_ratio(self, areas: Floats) -> Floats:
+        area = _lengths(areas)
         ratio = np.divide(area, self._rest_area, out=np.ones_like(area), where=self._rest_area > 0)
         mean: Floats = self._around @ np.clip(ratio, *_EXPANSION) / self._degree
         return mean
+
+
+def _lengths(vectors: Floats) -> Floats:
+    """Of vectors by coordinate, (3, m): (m,)."""
+    return np.sqrt(vectors[0] ** 2 + vectors[1] ** 2 + vectors[2] ** 2)
 
 
 def _evening(
