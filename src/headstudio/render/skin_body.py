@@ -195,7 +195,7 @@ class SkinBody:
         """What belongs to the body and is no skin, into the framebuffer in use: nothing, unless a body has parts."""
 
     def _array(self) -> _PosedSkin:
-        constants = [*self._constants, (self._cover, "1f1", "cover")]
+        constants: list[tuple[object, ...]] = [*self._constants, (self._cover, "1f1", "cover")]
         return _PosedSkin(self.context, self.programs, self._order, constants, self._faces)
 
 

@@ -21,7 +21,7 @@ class AreaVectors:
 
     def at(self, positions: Floats) -> Floats:
         """Twice the area of every triangle along its normal [m^2], by coordinate, (3, m), for positions [m], (n, 3)."""
-        coordinates = np.ascontiguousarray(positions.T, dtype=np.float32)
+        coordinates: Floats = np.ascontiguousarray(positions.T, dtype=np.float32)
         start, second, third = (coordinates.take(corner, axis=1) for corner in self._corners)
         second -= start
         third -= start
