@@ -41,6 +41,8 @@ def force_field(styling: StylingSettings, surroundings: Surroundings) -> ForceFi
         weight = getattr(styling, name)
         if weight:
             total += weight * preset(places, styling)
+    if styling.off_shoulders:
+        total += styling.off_shoulders * _off_shoulders(places, grid, surroundings)
     if styling.strokes:
         total = follow_strokes(total, grid, styling.strokes, surroundings.proportions, styling.stroke_reach)
     return ForceField(grid, total.astype(np.float32))
@@ -122,6 +124,24 @@ def _inward(places: Floats, styling: StylingSettings) -> Floats:
     from_neck = places * np.array([1.0, 0.0, 1.0])
     reach = np.linalg.norm(from_neck, axis=1, keepdims=True)
     return -_fade(places[:, 1], -0.6, 0.0) * from_neck / np.maximum(reach, 0.5)
+
+
+# Where the ridge of the shoulders runs, in half depths of the head behind its middle; within a part of this hair does not
+# know yet which way to go.
+_RIDGE, _RIDGE_BREADTH = -0.5, 0.12
+_ON_SHOULDERS = (0.005, 0.045)  # hair nearer to the skin than this lies on it, and hair farther off hangs free [m]
+
+
+def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Floats:
+    """On top of the shoulders hair does not slide outward, as a thread on a slope would: other hair holds it. It goes on
+    over the breast or down the back, whichever it is nearer to.
+    """
+    distance, outward = surroundings.distance_and_gradient(grid.nodes)
+    lying = _fade(distance, *_ON_SHOULDERS) * _fade(places[:, 1], -1.5, -1.1)
+    upward = np.clip(outward[:, 1], 0.0, 1.0)
+    side = np.tanh((places[:, 2] - _RIDGE) / _RIDGE_BREADTH)
+    # What gravity leaves along the slope from side to side, and a push across the ridge.
+    return lying * upward[:, None] * np.stack([-outward[:, 0], 0 * side, side], axis=1)
 
 
 PRESETS: dict[str, Callable[[Floats, StylingSettings], Floats]] = {

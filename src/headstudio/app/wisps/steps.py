@@ -30,6 +30,7 @@ _FIELD = (
     "parting",
     "off_face",
     "inward",
+    "off_shoulders",
     "stroke_reach",
 )
 _DEFORMATION = ("bending_stiffness", "density_threshold")
