@@ -6,6 +6,7 @@
 uniform sampler2D shades;
 uniform float metres_per_pixel;  // at distance 1 [m]
 uniform float widening;
+uniform float room;              // [pixels]
 out vec3 v_colour;
 out float v_across;              // from the middle of the strand [pixels]
 flat out float v_half_width;     // [pixels]
@@ -20,7 +21,7 @@ void main() {
     vec4 middle = clip_from_world * vec4(place, 1.0);
     float pixel = metres_per_pixel * middle.w;
     float half_width = point.w * widening;
-    float drawn = half_width + 0.5 * pixel;  // room for a soft edge
+    float drawn = half_width + room * pixel;  // for a soft edge
     v_colour = texelFetch(shades, texel, 0).rgb;
     v_across = side * drawn / pixel;
     v_half_width = half_width / pixel;

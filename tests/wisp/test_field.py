@@ -78,3 +78,18 @@ def test_a_stroke_finer_than_the_grid_still_counts():
     place = np.array([1.2, 0.5, 0.0])
     thin = Stroke((tuple(place), tuple(place + np.array([0.0, 0.0, 0.05]))), 0.005, 2.0)
     assert np.abs(field_at([place], strokes=(thin,)) - field_at([place])).max() > 0.1
+
+
+def test_hair_on_the_shoulders_is_led_off_them_before_and_behind():
+    _, _, surroundings = body()
+    across = surroundings.proportions.place(np.array([[side, -1.2, z] for side in (-1.8, 1.8) for z in (-0.2, -0.8)]))
+    down = np.linspace(0.0, 0.2, 400)[:, None] * np.array([0.0, -1.0, 0.0])
+    onto = []
+    for place in across:
+        line = place + down
+        onto.append(line[np.flatnonzero(surroundings.distance(line) > 0.006)[-1]])
+    places = surroundings.proportions.measure(np.array(onto))
+    pushed, plain = field_at(places, off_shoulders=1.0), field_at(places)
+    assert np.all(np.sign((pushed - plain)[:, 2]) == [1, -1, 1, -1])
+    # Far from the body nothing is changed.
+    assert field_at([[0.0, -1.9, 3.0]], off_shoulders=1.0) == pytest.approx(field_at([[0.0, -1.9, 3.0]]))

@@ -29,6 +29,7 @@ class BodyPrograms:
     def __init__(self, context: moderngl.Context) -> None:
         self.depth = load_program(context, "body/depth.vert", "body/depth.frag")
         self.skin = load_program(context, "body/skin.vert", "body/skin.frag")
+        self.covering = load_program(context, "body/covering.vert", "body/covering.frag")
         self.part = load_program(context, "body/part.vert", "body/part.frag")
         self.screens = ScreenPasses(context, "light", room="body")
 
@@ -54,6 +55,11 @@ class Body:
                 (context.buffer(bytes_of(np.column_stack([hidden_skin, paint(head)]))), "4f1", "paint"),
                 (self._cover, "1f1", "cover"),
             ],
+            context.buffer(indices_of(skin.faces)),
+        )
+        self._covering = context.vertex_array(
+            programs.covering,
+            [(vertices, "3f 12x 1f", "position", "head_weight")],
             context.buffer(indices_of(skin.faces)),
         )
         self._shadow = context.vertex_array(
@@ -112,6 +118,18 @@ class Body:
         )
         self._context.depth_func = "<"
 
+    def cover_samples(self, targets: PictureTargets) -> None:
+        """Draw the lit skin of ``targets`` into the framebuffer in use, which has several samples a pixel."""
+        draw_covering(self._covering, targets)
+
     def draw_parts(self, look: Look) -> None:
         """Eyes, teeth and lashes into the framebuffer in use; texture 0 is the shadow map, 1 the light map."""
         self._parts.draw(look)
+
+
+def draw_covering(skin: moderngl.VertexArray, targets: PictureTargets) -> None:
+    """Draw ``skin`` with the light that ``targets`` show on it."""
+    targets.colour.use(3)
+    targets.distance.use(4)
+    set_uniforms(skin.program, lit=3, distances=4)
+    skin.render()

@@ -22,6 +22,7 @@ from .hair import Hair, HairPrograms
 from .limb_body import LimbBody
 from .living_body import LivingBody
 from .overlays import OverlayPass
+from .samples import SampledCanvas, samples_of
 from .scene_block import SCENE_DTYPE, linear, scene_block, sky_and_ground
 from .screen import ScreenPasses
 from .skin_body import SkinBody, SkinPrograms
@@ -75,6 +76,7 @@ class Renderer:
         self._maps: LightTargets | None = None
         self._final: Progress | None = None
         self._targets: PictureTargets | None = None
+        self._sampled: SampledCanvas | None = None
 
     @property
     def colour_texture(self) -> int:
@@ -130,8 +132,8 @@ class Renderer:
             maps.map.use(1)
             # A limb has no brows, whose strokes are all that its skin would take from this.
             self._hair_programs.strands.seen(view, camera.distance, targets.scene.height).use(2)
-            self._draw_body(self._limb, view, look, targets, skin)
-            self._develop_picture(look, targets)
+            canvas = self._draw_body(self._limb, view, look, targets, skin)
+            self._develop_picture(look, targets, canvas)
             return targets.picture
 
     @contextmanager
@@ -199,19 +201,19 @@ class Renderer:
         maps.map.use(1)
         self._hair_programs.strands.seen(view, float(view.depth(stage.frame.translation)), targets.scene.height).use(2)
         with timer.stage("body"):
-            self._draw_body(body if look.show_head else None, view, look, targets, skin)
+            canvas = self._draw_body(body if look.show_head else None, view, look, targets, skin)
             if worn is not None:
-                self._draw_adornments(worn, targets)
+                self._draw_adornments(worn, canvas)
         if hair is not None:
             with timer.stage("hair"):
-                self._draw_hair(hair, view, look, targets)
+                self._draw_hair(hair, view, look, targets, canvas)
         if strands is not None:
             with timer.stage("strands"):
-                self._draw_strands(strands, stage, view, look, targets, maps)
-        with timer.stage("overlays"), self.context.scope(targets.scene, moderngl.PROGRAM_POINT_SIZE):
+                self._draw_strands(strands, stage, view, look, canvas, maps)
+        with timer.stage("overlays"), self.context.scope(canvas, moderngl.PROGRAM_POINT_SIZE):
             self._overlays.draw(stage.overlays)
         with timer.stage("develop"):
-            self._develop_picture(look, targets)
+            self._develop_picture(look, targets, canvas)
 
     def _pull(self, stage: Stage, look: Look) -> tuple[Body | LivingBody, Hair | None]:
         body = self._pull_body(stage, look)
@@ -301,7 +303,8 @@ class Renderer:
 
     def _draw_body(
         self, body: Body | SkinBody | None, view: View, look: Look, targets: PictureTargets, skin: SkinSettings
-    ) -> None:
+    ) -> moderngl.Framebuffer:
+        """Returns the canvas that the rest of the picture is drawn on: the scene, or one of several samples a pixel."""
         surface = targets.surface if body is None else body.surface_target(targets)
         with self.context.scope(surface, moderngl.DEPTH_TEST):
             surface.clear(view.far, depth=1.0)
@@ -309,45 +312,72 @@ class Renderer:
                 body.draw_surface(view, look, skin, targets)
         targets.scene.depth_mask = False
         targets.scene.clear(0.0, 0.0, 0.0, 0.0)
-        if body is None:
-            return
-        with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
-            body.light_surface(view, look, skin, targets)
-        with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
-            self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-            targets.scene.depth_mask = True
-            body.draw_parts(look)
+        if body is not None:
+            with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
+                body.light_surface(view, look, skin, targets)
+        canvas = self._canvas(look, targets)
+        if canvas is not targets.scene:
+            with self.context.scope(canvas, moderngl.DEPTH_TEST):
+                canvas.depth_mask = True
+                canvas.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
+                if body is not None:
+                    body.cover_samples(targets)
+        if body is not None:
+            with self.context.scope(canvas, moderngl.DEPTH_TEST | moderngl.BLEND):
+                self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+                canvas.depth_mask = True
+                body.draw_parts(look)
+        return canvas
 
-    def _draw_adornments(self, worn: Adornments, targets: PictureTargets) -> None:
-        with self.context.scope(targets.scene, moderngl.DEPTH_TEST):
-            targets.scene.depth_mask = True
+    def _canvas(self, look: Look, targets: PictureTargets) -> moderngl.Framebuffer:
+        samples = samples_of(self.context, look)
+        if samples == 1 or targets.supersampling > 1:
+            return targets.scene
+        if self._sampled is None or (self._sampled.size, self._sampled.samples) != (targets.size, samples):
+            self._sampled = SampledCanvas(self.context, targets.size, samples)
+        return self._sampled.framebuffer
+
+    def _draw_adornments(self, worn: Adornments, canvas: moderngl.Framebuffer) -> None:
+        with self.context.scope(canvas, moderngl.DEPTH_TEST):
+            canvas.depth_mask = True
             worn.draw()
 
-    def _draw_hair(self, hair: Hair, view: View, look: Look, targets: PictureTargets) -> None:
-        with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
-            targets.scene.depth_mask = False
+    def _draw_hair(
+        self, hair: Hair, view: View, look: Look, targets: PictureTargets, canvas: moderngl.Framebuffer
+    ) -> None:
+        with self.context.scope(canvas, moderngl.BLEND | moderngl.DEPTH_TEST):
+            canvas.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             hair.draw(view, look, targets.distance)
 
     def _draw_strands(
-        self, strands: StrandHair, stage: Stage, view: View, look: Look, targets: PictureTargets, maps: LightTargets
+        self,
+        strands: StrandHair,
+        stage: Stage,
+        view: View,
+        look: Look,
+        canvas: moderngl.Framebuffer,
+        maps: LightTargets,
     ) -> None:
         maps.depth.use(0)
         maps.map.use(1)
-        strands.look_from(view, stage.frame, targets.scene.height)
+        strands.look_from(view, stage.frame, canvas.height)
         strands.shade(strand_material(look))
-        with self.context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
-            targets.scene.depth_mask = False
+        with self.context.scope(canvas, moderngl.BLEND | moderngl.DEPTH_TEST):
+            canvas.depth_mask = False
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             steps = STEPS if self._final else 1
-            for done in strands.draw(view, stage.frame, targets.scene.height, steps):
+            for done in strands.draw(view, stage.frame, canvas.height, steps, canvas.samples):
                 if self._final:
                     self.context.finish()
                     if not self._final(done, steps):
                         raise _StoppedError
 
-    def _develop_picture(self, look: Look, targets: PictureTargets) -> None:
+    def _develop_picture(self, look: Look, targets: PictureTargets, canvas: moderngl.Framebuffer) -> None:
         width, height = targets.size
+        if canvas is not targets.scene:
+            # The mean of the samples of every pixel.
+            self.context.copy_framebuffer(targets.reduced_target, canvas)
         if targets.supersampling > 1:
             with self.context.scope(targets.reduced_target, moderngl.NOTHING):
                 targets.colour.use(0)

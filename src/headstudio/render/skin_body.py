@@ -12,7 +12,7 @@ from ..head.mesh import Floats, Ints, TriangleMesh
 from ..scene.settings import Look
 from ..scene.skin_settings import MODELS, SkinSettings
 from . import lafortune
-from .body import BodyPrograms
+from .body import BodyPrograms, draw_covering
 from .buffers import bytes_of, floats_of, indices_of
 from .context import load_program, set_uniforms
 from .fine_relief import FineRelief
@@ -32,6 +32,7 @@ class SkinPrograms:
 
     def __init__(self, context: moderngl.Context, body: BodyPrograms) -> None:
         self.depth = body.depth
+        self.covering = body.covering
         self.part = body.part
         self.surface = load_program(context, "skin/surface.vert", "skin/surface.frag")
         self.screens = ScreenPasses(context, "light", "scatter", room="skin")
@@ -72,14 +73,14 @@ class SkinBody:
         self._faces = context.buffer(indices_of(place[shape.faces]))
         self._posed = self._array()
         self._smooth: _PosedSkin | None = None
+        posed = [
+            (self._posed.vertices, "3f 28x", "position"),
+            (context.buffer(floats_of(shape.turning[order])), "1f", "head_weight"),
+        ]
         self._shadow = context.vertex_array(
-            programs.depth,
-            [
-                (self._posed.vertices, "3f 28x", "position"),
-                (context.buffer(floats_of(shape.turning[order])), "1f", "head_weight"),
-            ],
-            context.buffer(indices_of(place[shape.shadow_faces])),
+            programs.depth, posed, context.buffer(indices_of(place[shape.shadow_faces]))
         )
+        self._covering = context.vertex_array(programs.covering, posed, self._faces)
 
     def cover(self, cover: Floats) -> None:
         """How densely hair stands on every vertex, 0 to 1, (N,), from now on."""
@@ -190,6 +191,10 @@ class SkinBody:
             # Colours add up, coverage stays.
             self.context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ZERO, moderngl.ONE  # type: ignore[assignment]
             self.programs.screens.draw("scatter", along=(0.0, metre), **known)
+
+    def cover_samples(self, targets: PictureTargets) -> None:
+        """Draw the lit skin of ``targets`` into the framebuffer in use, which has several samples a pixel."""
+        draw_covering(self._covering, targets)
 
     def draw_parts(self, look: Look) -> None:
         """What belongs to the body and is no skin, into the framebuffer in use: nothing, unless a body has parts."""

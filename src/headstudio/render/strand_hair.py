@@ -26,6 +26,10 @@ from .view import View, parallel_view
 
 _DEPTH_LEVELS = 65535
 
+# Pixels beside a strand whose middles are nearer to it than this are covered in part. Those of them that have several
+# samples must be drawn to the last: their cover is shared by all.
+_ROOM, _TO_SAMPLE = 0.5, 0.75
+
 # No fewer strands are drawn, however small they are seen.
 _FEWEST = 2_000
 
@@ -217,8 +221,8 @@ class StrandHair:
             self._shade_target.viewport = (0, 0, POINT_ROW, max(rows, 1))
             self._programs.screens.draw("shade", **uniforms, **self.light_uniforms(8), **self._soft.bind(11))
 
-    def draw(self, view: View, frame: HeadFrame, height: int, steps: int = 1) -> Iterator[int]:
-        """Strands in order, farthest first, over the framebuffer in use, ``height`` pixels high.
+    def draw(self, view: View, frame: HeadFrame, height: int, steps: int = 1, samples: int = 1) -> Iterator[int]:
+        """Strands in order, farthest first, over the framebuffer in use, ``height`` pixels high, so many samples a pixel.
 
         They are drawn in so many steps: yields 1, 2, 3 ... after each.
         """
@@ -232,18 +236,18 @@ class StrandHair:
         self._sorted.write(self._pieces[order])
         bounds = np.linspace(0, len(order), steps + 1).astype(int) * self._pieces.shape[1]
         for step, (start, end) in enumerate(pairwise(bounds.tolist())):
-            self._use(view, height)
+            self._use(view, height, samples)
             if end > start:
                 self._sorted_array.render(moderngl.TRIANGLE_STRIP, vertices=end - start, first=start)
             yield step + 1
 
-    def _use(self, view: View, height: int) -> None:
+    def _use(self, view: View, height: int, samples: int) -> None:
         self._textures.points.use(2)
         self._textures.tangents.use(3)
         self._shades.use(4)
         set_uniforms(
             self._programs.ribbon, points=2, tangents=3, shades=4, widening=self.widening(self._drawn),
-            metres_per_pixel=2.0 / (view.focal * height),
+            metres_per_pixel=2.0 / (view.focal * height), room=_ROOM if samples < 2 else _ROOM + _TO_SAMPLE,
         )  # fmt: skip
 
     def _prepare_fibre(self, fibre: Fibre) -> None:

@@ -13,6 +13,7 @@ SKIN_AS = ("resting", "living")
 STRAND_MODELS = ("fibre", "kajiya-kay")
 SKIN_SHOWS = ("skin", "expansion", "shrinkage", "amplitude", "height")
 TONE_MAPS = ("soft", "filmic", "none")
+SAMPLES = ("auto", "1", "2", "4", "8")
 
 
 @dataclass(frozen=True)
@@ -140,6 +141,14 @@ class Look:
         1_000_000,
         "Strands that are drawn while you work, wider by as much as the others would cover; a final picture has all.",
         log=True,
+        live=True,
+    )
+    samples: str = choice(
+        "auto",
+        "Samples",
+        SAMPLES,
+        "Samples a pixel at edges (MSAA) while you work, as far as the driver has them; auto: 4 on a graphics card, 1 where "
+        "the processor draws. Stills and final pictures are drawn finer instead.",
         live=True,
     )
     shadows: bool = switch(

@@ -137,7 +137,7 @@ def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Fl
     over the breast or down the back, whichever it is nearer to.
     """
     distance, outward = surroundings.distance_and_gradient(grid.nodes)
-    lying = _fade(distance, *_ON_SHOULDERS) * _fade(places[:, 1], -1.5, -1.1)
+    lying = _fade(distance.astype(np.float64), *_ON_SHOULDERS) * _fade(places[:, 1], -1.5, -1.1)
     upward = np.clip(outward[:, 1], 0.0, 1.0)
     side = np.tanh((places[:, 2] - _RIDGE) / _RIDGE_BREADTH)
     # What gravity leaves along the slope from side to side, and a push across the ridge.
