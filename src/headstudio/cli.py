@@ -343,7 +343,7 @@ def wrinkle(
 
 @command()
 def limb(
-    which: Annotated[str, typer.Argument(metavar="LIMB", help="hand, arm, foot, or a rigged hand, FILE.glb.")] = "hand",
+    which: Annotated[str, typer.Argument(metavar="LIMB", help="hand, arm, foot, or what FILE.glb holds.")] = "hand",
     pose: Annotated[str, typer.Option(help="rest, relaxed, open, fist, point or pinch.")] = "relaxed",
     age: Annotated[
         float, typer.Option(min=0, max=1, help="0 young, 1 old: shape, and depth of the joints' lines.")

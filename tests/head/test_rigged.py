@@ -146,11 +146,22 @@ def _finger(names: list, places: list, finger: str, x: float) -> tuple[list, lis
     return names + [f"{finger}-{bone}" for bone in bones], places + bent
 
 
-@pytest.mark.parametrize("spoil", ["text", "cut", "no skin", "weights", "loop"])
+def test_a_file_without_a_skeleton_is_a_part_that_holds_still(tmp_path):
+    document, binary = tube()
+    document["nodes"][2].pop("skin")
+    document["nodes"][2]["translation"] = [0.0, 0.0, 2.0]
+    document["scenes"], document["scene"] = [{"nodes": [2]}], 0
+    (tmp_path / "still.glb").write_bytes(glb(document, binary))
+    part = load_rigged(tmp_path / "still.glb")
+    assert part.rig is None
+    assert "holds still" in part.notes[-1]
+    np.testing.assert_allclose(part.skin.vertices[:, 2], 2.0)
+    assert len(part.skin.vertices) == 4
+
+
+@pytest.mark.parametrize("spoil", ["text", "cut", "weights", "loop"])
 def test_a_file_that_cannot_be_used_is_one_line(tmp_path, spoil):
     document, binary = tube()
-    if spoil == "no skin":
-        document["nodes"][2].pop("skin")
     if spoil == "weights":
         document["meshes"][0]["primitives"][0]["attributes"].pop("WEIGHTS_0")
     if spoil == "loop":

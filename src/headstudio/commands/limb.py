@@ -8,16 +8,18 @@ from pathlib import Path
 import numpy as np
 
 from ..head.limbs import makehuman_foot, makehuman_hand
-from ..head.rig import BodyPart
+from ..head.mesh import Floats, TriangleMesh
+from ..head.rig import BodyPart, is_hand
 from ..head.rigged import load_rigged
 from ..params import ParameterError, assign
 from ..scene.document import Document
 from ..wrinkle.hand import Hand
 from ..wrinkle.hand_settings import HandSettings
 from ..wrinkle.joint_furrows import joint_furrows
+from ..wrinkle.limb_map import long_side, with_map
 from ..wrinkle.wrinkled_limb import WrinkledLimb
 from .pictures import Photographer, Size, check_is_picture, save_picture
-from .reporting import say, working
+from .reporting import say, warn, working
 
 LIMBS = ("hand", "arm", "foot")
 # Room for the limb in the picture, in lengths of its longest side.
@@ -25,24 +27,25 @@ _ROOM = 1.15
 
 
 def limb(document: Document, which: str, hand: HandSettings, wrinkles: bool, size: Size, out: Path) -> None:
-    """Write a picture of a limb: "hand", "arm", "foot", or a rigged hand in a GLB file.
+    """Write a picture of a limb: "hand", "arm", "foot", or what a GLB file holds.
 
-    Raises HeadError, ParameterError, RenderError, OSError.
+    Raises HeadError, ParameterError, RenderError, TextureMapError, OSError.
     """
     check_is_picture(out)
     with working("reading the limb"):
         part = _part(document, which)
-    posed = Hand(part).pose(hand) if part.rig is not None else part.skin.vertices
-    if part.skin.corner_uv is None:
-        raise ParameterError(f"{which} has no texture coordinates, which wrinkles are laid out on")
+    posable = part.rig is not None and is_hand(part.rig.names)
+    if not posable and which not in LIMBS:
+        warn(f"{which} has no skeleton of a hand: it stays as it is, without lines on its joints")
+    posed = Hand(part).pose(hand) if posable else part.skin.vertices
+    with working("laying out the skin"):
+        limb_skin = part.skin if part.skin.corner_uv is not None else _laid_out(part, posable)
     strength = 2.0 * document.head.age if wrinkles and document.wrinkle.shown else 0.0
     fine = assign(document, {"fine.on": wrinkles and document.fine.on}).fine
-    # A hand's fingers point along +Y and its back along +Z; the sole of a foot looks down.
-    bare = np.array([0.0, -1.0, 0.0]) if which == "foot" else np.array([0.0, 0.0, -1.0])
-    along = np.array([0.0, 0.0, 1.0]) if which == "foot" else np.array([0.0, 1.0, 0.0])
+    along, bare = _directions(which, posable, part.skin)
     with working("wrinkling the skin"):
-        furrows = joint_furrows(part, document.fine.seed) if strength > 0 else ()
-        skin = WrinkledLimb(part.skin, furrows, fine, along=along, bare=bare, strength=min(strength, 2.0))
+        furrows = joint_furrows(part, document.fine.seed) if strength > 0 and posable else ()
+        skin = WrinkledLimb(limb_skin, furrows, fine, along=along, bare=bare, strength=min(strength, 2.0))
         shown = skin.at(posed)
     low, high = shown.positions.min(axis=0), shown.positions.max(axis=0)
     x, y, z = 0.5 * (low + high)
@@ -57,6 +60,20 @@ def limb(document: Document, which: str, hand: HandSettings, wrinkles: bool, siz
     say(str(out))
 
 
+def _laid_out(part: BodyPart, posable: bool) -> TriangleMesh:
+    """The skin with a map of its own; a hand is opened for it, so that no finger hides another."""
+    return with_map(part.skin, Hand(part).pose(HandSettings(pose="open")) if posable else None)
+
+
+def _directions(which: str, posable: bool, skin: TriangleMesh) -> tuple[Floats, Floats | None]:
+    """Along a limb and out of its palm or sole, where no fine wrinkle is, (3,) each; None where nobody knows."""
+    if which == "foot":
+        return np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])
+    if posable:
+        return np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, -1.0])
+    return long_side(skin), None
+
+
 def _part(document: Document, which: str) -> BodyPart:
     age, masculine = document.head.age, document.head.masculine
     if which == "foot":
@@ -64,5 +81,5 @@ def _part(document: Document, which: str) -> BodyPart:
     if which in LIMBS:
         return makehuman_hand(age, masculine, arm=which == "arm")
     if not which.lower().endswith(".glb"):
-        raise ParameterError(f"a limb is {', '.join(LIMBS)}, or a rigged hand in a .glb file; got {which!r}")
+        raise ParameterError(f"a limb is {', '.join(LIMBS)}, or what a .glb file holds; got {which!r}")
     return load_rigged(Path(which))

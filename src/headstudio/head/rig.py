@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,6 +50,11 @@ class BodyPart:
     skin: TriangleMesh
     rig: Rig | None = None
     notes: tuple[str, ...] = ()
+
+
+def is_hand(names: Collection[str]) -> bool:
+    """Whether joints of these names make a hand: a wrist, and fingers from their knuckles to their tips."""
+    return {"wrist", *(f"{finger} {bone}" for finger in FINGERS for bone in ("proximal", "tip"))} <= set(names)
 
 
 def bones_of(finger: str) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""A body part with its skeleton from a GLB file: skins of glTF 2.0, read as far as a rest pose needs."""
+"""A body part from a GLB file, with its skeleton if it has one: skins of glTF 2.0, as far as a rest pose needs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from scipy import sparse
 
 from .head import HeadError
 from .mesh import Floats, Ints, TriangleMesh
-from .rig import FINGERS, PHALANGES, BodyPart, Rig, hand_frame, hand_parents
+from .read import read_mesh
+from .repair import repair
+from .rig import FINGERS, PHALANGES, BodyPart, Rig, hand_frame, hand_parents, is_hand
 
 _MAGIC, _JSON_CHUNK, _BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 _COMPONENTS = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
@@ -27,11 +29,11 @@ _WORDS = {"pinky": "little", "phalanx": "", "finger": ""}
 
 
 def load_rigged(path: str | Path) -> BodyPart:
-    """The skinned mesh of a GLB file and its skeleton.
+    """The skinned mesh of a GLB file and its skeleton; from a file without one all its meshes, which hold still.
 
     A hand (WebXR's names of joints, or those of ``Rig``) is turned as ``makehuman_hand`` is, and its chain of joints
     follows from their names even where the file hangs all of them on one node. Raises HeadError, one line for the
-    user, when there is no such file, it is damaged, or it has no skin.
+    user, when there is no such file or it is damaged.
     """
     path = Path(path)
     try:
@@ -39,11 +41,13 @@ def load_rigged(path: str | Path) -> BodyPart:
     except OSError as error:
         raise HeadError(f"{path} cannot be read: {error.strerror or error}") from None
     try:
-        return _body_part(_Glb(content), path.stem)
+        glb = _Glb(content)
+        node = next((node for node in glb.json["nodes"] if "skin" in node and "mesh" in node), None)
+        return _still_part(path) if node is None else _body_part(glb, node, path.stem)
     except (struct.error, ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
         if isinstance(error, HeadError):
             raise
-        raise HeadError(f"{path.name} is damaged or no GLB file with a skeleton: export it again") from None
+        raise HeadError(f"{path.name} is damaged or no GLB file: export it again") from None
 
 
 class _Glb:
@@ -74,10 +78,15 @@ class _Glb:
         return values / float(np.iinfo(str(kind)).max) if entry.get("normalized") else values.copy()
 
 
-def _body_part(glb: _Glb, name: str) -> BodyPart:
-    node = next((node for node in glb.json["nodes"] if "skin" in node and "mesh" in node), None)
-    if node is None:
-        raise HeadError(f"{name} has no skin that hangs on a skeleton: export it with its armature and weights")
+def _still_part(path: Path) -> BodyPart:
+    skin, repairs = repair(read_mesh(path))
+    size = f"{len(skin.vertices):,} vertices and {len(skin.faces):,} triangles"
+    still = "no skin hangs on a skeleton: it holds still, and there are no joints to crease"
+    # Its texture coordinates may lie over each other, as games have them; those of wrinkles must not.
+    return BodyPart(path.stem, TriangleMesh(skin.vertices, skin.faces), None, (size, *repairs.lines(), still))
+
+
+def _body_part(glb: _Glb, node: dict[str, Any], name: str) -> BodyPart:
     joints = glb.json["skins"][node["skin"]]["joints"]
     names = tuple(_joint_name(glb.json["nodes"][joint].get("name", f"joint {joint}")) for joint in joints)
     # A joint rests where its inverse bind matrix, which glTF stores by columns, takes it to the origin.
@@ -85,9 +94,8 @@ def _body_part(glb: _Glb, name: str) -> BodyPart:
     positions = np.linalg.inv(inverse.astype(np.float64))[:, :3, 3]
     vertices, faces, weights = _skinned_surface(glb, glb.json["meshes"][node["mesh"]], len(joints))
 
-    is_hand = {"wrist", *(f"{finger} {bone}" for finger in FINGERS for bone in ("proximal", "tip"))} <= set(names)
-    parents = hand_parents(names) if is_hand else _parents(glb, joints)
-    if is_hand:
+    parents = hand_parents(names) if is_hand(names) else _parents(glb, joints)
+    if is_hand(names):
         axes = hand_frame(names, positions)
         wrist = positions[names.index("wrist")]
         vertices, positions = (vertices - wrist) @ axes.T, (positions - wrist) @ axes.T

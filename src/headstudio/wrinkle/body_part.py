@@ -11,7 +11,7 @@ from ..head.head import Head
 from ..head.locate import Locator
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.parts import joined
-from ..head.repair import face_components
+from ..head.repair import edge_neighbours, face_components
 
 Mask = NDArray[np.bool_]
 
@@ -46,16 +46,18 @@ class BodyPart:
 def body_part(skin: TriangleMesh, selected: Mask) -> BodyPart:
     """The largest connected piece of the ``selected`` faces of a skin, (m,).
 
-    Triangles are dropped where only a vertex holds the piece together. Raises ValueError when nothing is selected.
+    Triangles are dropped where only a vertex holds the piece together, and where one hangs on the piece by a single
+    edge: a map fixes all its corners, and zigzags of the border would turn it over. Raises ValueError when nothing is
+    selected.
     """
     if not selected.any():
         raise ValueError("no triangle of the skin lies in this part of the body")
     kept = _largest(skin, selected)
     while True:
-        pinched = _pinched_faces(skin.faces, kept)
-        if not pinched.any():
+        lost = _pinched_faces(skin.faces, kept) | _hanging_faces(skin.faces, kept)
+        if not lost.any() or not (kept & ~lost).any():
             break
-        kept = _largest(skin, kept & ~pinched)
+        kept = _largest(skin, kept & ~lost)
     return extract(skin, np.flatnonzero(kept))
 
 
@@ -142,6 +144,15 @@ def _largest(skin: TriangleMesh, selected: Mask) -> Mask:
     kept = np.zeros(len(skin.faces), dtype=bool)
     kept[chosen[piece == best]] = True
     return kept
+
+
+def _hanging_faces(faces: Ints, kept: Mask) -> Mask:
+    """Kept faces with two sides on the border, (m,)."""
+    chosen = np.flatnonzero(kept)
+    inner = np.bincount(edge_neighbours(faces[chosen]).ravel(), minlength=len(chosen))
+    hanging = np.zeros(len(faces), dtype=bool)
+    hanging[chosen[inner < 2]] = True
+    return hanging
 
 
 def _pinched_faces(faces: Ints, kept: Mask) -> Mask:

@@ -59,7 +59,7 @@ def map_to_texture(
         trouble = why_not_one_to_one(mesh, layout)
         if trouble:
             raise TextureMapError(f"the {method} projection alone is not one to one ({trouble}); relax it")
-    return _fitted(mesh, layout, note)
+    return fitted(mesh, layout, note)
 
 
 @lru_cache(maxsize=2)
@@ -84,7 +84,7 @@ def _between_ears(head: Head) -> Floats:
     return np.array([0.0, ears[1], ears[2]])
 
 
-def _fitted(mesh: TriangleMesh, layout: Layout, note: str) -> TextureMap:
+def fitted(mesh: TriangleMesh, layout: Layout, note: str) -> TextureMap:
     """The layout moved and scaled into the square, angles kept where they can be."""
     low, high = layout.places.min(axis=0), layout.places.max(axis=0)
     room = 1.0 - 2.0 * _MARGIN

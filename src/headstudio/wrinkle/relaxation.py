@@ -22,7 +22,7 @@ from .one_to_one import signed_areas, why_not_one_to_one
 from .projection import Layout, TextureMapError, border_cycles, loop_steps, winding
 
 # How strongly the k-th wave of the border is flattened, by 1 / (1 + smoothing k^2), in the order they are tried.
-_SMOOTHINGS = (0.0, 1e-3, 1e-2, 0.1, 1.0, np.inf)
+_SMOOTHINGS = (0.0, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1.0, np.inf)
 
 
 @dataclass(frozen=True, eq=False)
