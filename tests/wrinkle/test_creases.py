@@ -165,38 +165,6 @@ def test_outside_the_furrows_nothing_moves():
     assert (wrinkled.height[far] == 0).all()
 
 
-@pytest.mark.parametrize("opening", [-6.0, 0.0, 4.0])
-def test_the_two_sides_of_a_fold_do_not_pass_through_each_other(opening):
-    """A sheet folded about a furrow with its halves ``opening`` degrees apart, like the skin of a finger's joint."""
-    flat = sheet(50, size=0.05, jitter=0.1)
-    layout = SkinLayout.of_map(flat_map(flat, (16.0, 16.0)))
-    bed = prepare_bed(layout, [line_between((0.5, 0.2), (0.5, 0.8), depth=9e-3, width=W)], 0.3)
-    # Round at the bottom: the angle grows over 1.5 mm on either side and then stays.
-    x = flat.vertices[:, 0] - 0.025
-    way = np.linspace(0, 0.03, 3000)
-    lean = np.radians(90 - opening / 2) * np.clip(way / 1.5e-3, 0, 1)
-    out, up = (np.concatenate([[0], np.cumsum(f(lean))[:-1]]) * way[1] for f in (np.cos, np.sin))
-    folded = np.column_stack(
-        [np.sign(x) * np.interp(abs(x), way, out), flat.vertices[:, 1], np.interp(abs(x), way, up)]
-    )
-
-    base = Creases(bed, strength=0.0).displaced(folded).positions
-    free, kept = (Creases(bed, self_contact=on).displaced(folded) for on in (False, True))
-    side = np.sign(bed.refined.vertices[:, 0] - 0.025)
-    # The bulges; where the halves of the bare skin are apart, those of the wrinkled skin stay apart.
-    looked_at = (free.height > 0) & (side * base[:, 0] > 0)
-    assert (side * free.positions[:, 0])[looked_at].min() < -1e-4
-    assert (side * kept.positions[:, 0])[looked_at].min() > -2e-5
-    assert (kept.height <= free.height).all()
-    assert (kept.height[free.height <= 0] == free.height[free.height <= 0]).all()
-
-
-def test_an_open_skin_knows_no_contact():
-    flat, bed = furrow_on_sheet(np.array([8.0, 8.0]), 0.3)
-    heights = [Creases(bed, self_contact=on).displaced(flat.vertices).height for on in (False, True)]
-    assert np.array_equal(*heights)
-
-
 def test_depths_change_without_preparing_the_skin_again():
     flat, bed = furrow_on_sheet(np.array([8.0, 8.0]), 0.3)
     deeper = replace(bed.furrows[0].furrow, depth=2 * D)

@@ -1,58 +1,250 @@
-"""Bulges on both sides of a fold stop where they meet.
+"""Bulges stop where the skin comes to face itself: in folds, between furrows side by side, of a finger against the palm.
 
-Each point beside a furrow has a mate: the point on the other side, as far from the floor. When a joint bends, both come
-near each other. The plane half way between them is the farther side's limit, too, so neither bulge crosses it.
+A ball that touches the skin from outside at a point, and rests on another part of it, has its middle half way between
+both. No bulge may rise beyond that middle, whichever furrows it belongs to: then neither part can reach through the
+other. Against a part of the skin that is flat around q with normal m, the ball at p with normal n has the radius
+
+    r = (p - q) . m / (1 - n . m),
+
+half the gap between two walls, and the way to the plane between them in a fold of any angle.
+
+Skin that faces itself is rare. So creases of the coarse skin that are sharper than a bulge is high are looked for first,
+and patches that come face to face; points are compared in those alone.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
+from scipy.spatial import cKDTree
 
-from ..head.mesh import Floats
+from ..head.mesh import Floats, Ints, TriangleMesh
+from ..head.repair import edge_neighbours
 from .furrow_bed import FurrowBed
-from .smooth_surface import PosedSurface, SmoothSurface
+from .smooth_surface import PosedSurface, SmoothSurface, cross, unit
 
-# Bulges are kept apart up to this many widths from the floor.
-_WIDTHS = 4.0
-# A mate farther outside the map than this, in texture space, does not exist.
-_OFF_MAP = 1e-3
+# Edge of a patch, and how far patches may move before those that face each other are looked for again [m].
+_PATCH = 0.006
+_SLACK = 0.004
+# Bulges lower than this meet nothing [m]. Those that meet stop so far from the middle [m], and so many times the height of
+# the smooth skin over its triangles, which is how well places are known.
+_LOW = 5e-5
+_CLEAR, _UNSURE = 5e-6, 4.0
+# Skin that bends by less than 25 degrees does not face itself, as a cosine: bulges are too low for wider folds. Patches
+# do from 60 degrees on; what bends less lies around a crease.
+_FACING, _OPPOSED = 0.9, 0.5
+# Normals of a point and of its triangle differ: triangles count as facing each other up to this.
+_TURNED = 0.97
+# A crease counts where it turns within so many heights of a bulge.
+_SHARP = 2.0
 
 
 class Folds:
-    """Points on the bulges of furrows, and their mates on the other side."""
+    """Points on the bulges of furrows, and the parts of the skin that they may meet."""
 
     def __init__(self, bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> None:
-        width = np.array([laid.furrow.width for laid in bed.furrows])[bed.furrow]
-        wanted = np.flatnonzero((unit_height > 0) & (bed.beside.distance < _WIDTHS * width))
-        # A vertex between several furrows folds at the nearest.
-        order = wanted[np.lexsort((bed.beside.distance[wanted], bed.vertex[wanted]))]
-        first = order[np.unique(bed.vertex[order], return_index=True)[1]]
-        mirrored = np.zeros((len(first), 2))
-        for k, laid in enumerate(bed.furrows):
-            own = np.flatnonzero(bed.furrow[first] == k)
-            entries = first[own]
-            uv = bed.layout.uv(bed.refined, bed.vertex[entries])
-            mirrored[own] = laid.mirrored(bed.beside.t[entries], uv)
-        found, off = bed.layout.locate(mirrored)
-        exists = off < _OFF_MAP
-        part = bed.layout.part
-        corners = part.vertices[part.mesh.faces[found.faces[exists]]]
-        self.rows = surface.row_of[bed.vertex[first[exists]]]
-        count = int(exists.sum())
-        self._mates = sparse.csr_array(
-            (found.weights[exists].ravel(), corners.ravel(), 3 * np.arange(count + 1)),
-            shape=(count, len(bed.layout.skin.vertices)),
-        )
+        """surface: with a row for every entry of the bed. unit_height: of the entries at full amplitude [m], (i,)."""
+        skin = bed.layout.skin
+        self._faces = skin.faces
+        raised = np.unique(surface.row_of[bed.vertex[unit_height > 0]])
+        face = bed.refined.home[surface.vertices[raised]]
+        # Rows of bulges, those of one triangle after the other.
+        order = np.argsort(face, kind="stable")
+        self._rows: Ints = raised[order]
+        self._bulging, self._starts, self._count = np.unique(face[order], return_index=True, return_counts=True)
+        self._creases = _Creases(skin, self._bulging)
+        self._patches = _Patches(skin, self._bulging)
 
     def clamped(self, height: Floats, posed: Floats, surface: PosedSurface) -> Floats:
-        """Heights [m], (k,), of the surface's vertices, none beyond half way to its mate: h <= |e|^2 / (2 n . e)."""
-        to_mate = self._mates @ posed - surface.positions[self.rows]
-        facing = np.einsum("ij,ij->i", to_mate, surface.normals[self.rows])
-        gap = 0.5 * np.einsum("ij,ij->i", to_mate, to_mate)
-        hit = np.flatnonzero(height[self.rows] * facing > gap)
-        if not len(hit):
+        """Heights [m], (k,), of the surface's vertices, none beyond the middle of a ball between it and other skin.
+
+        posed: the coarse skin [m], (n, 3).
+        """
+        if not len(self._rows):
             return height
+        tops = np.zeros(len(self._faces))
+        tops[self._bulging] = np.maximum.reduceat(height[self._rows], self._starts)
+        if tops.max() <= _LOW:
+            return height
+        close = self._patches.facing(tops, posed, surface.coarse_normals) | self._creases.sharp(tops, posed)
+        raised = np.flatnonzero(close[self._bulging] & (tops[self._bulging] > _LOW))
+        if not len(raised):
+            return height
+        skin = _Facets.of(self._faces[close], posed, surface.coarse_normals)
+        bulges = _Facets.of(self._faces[self._bulging[raised]], posed, surface.coarse_normals)
+        bulge, other = bulges.facing(skin, tops[self._bulging[raised]])
+        # Every point of a bulge against every triangle that its own one faces.
+        count = self._count[raised[bulge]]
+        first = self._starts[raised[bulge]] - np.concatenate([[0], np.cumsum(count)[:-1]])
+        rows = self._rows[np.repeat(first, count) + np.arange(count.sum())]
+        other = np.repeat(other, count)
+        up = height[rows] > _LOW
+        rows, other = rows[up], other[up]
+        radius = skin.radii(other, surface.positions[rows], surface.normals[rows])
         clamped = height.copy()
-        clamped[self.rows[hit]] = gap[hit] / facing[hit]
+        np.minimum.at(clamped, rows, np.maximum(radius - skin.clear[other], 0.0))
         return clamped
+
+
+@dataclass(frozen=True, eq=False)
+class _Facets:
+    """Triangles of the coarse skin: middles on the smooth skin [m] and unit normals, (k, 3), how far their corners are
+    from there and how far from it bulges stop [m], (k,)."""
+
+    middle: Floats
+    normal: Floats
+    size: Floats
+    clear: Floats
+
+    @classmethod
+    def of(cls, faces: Ints, posed: Floats, normals: Floats) -> _Facets:
+        """faces: (k, 3). posed, normals: of the skin's vertices, (n, 3)."""
+        corners = posed[faces]
+        middle = corners.mean(axis=1)
+        size = np.sqrt(((corners - middle[:, None]) ** 2).sum(axis=2).max(axis=1))
+        normal = unit(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        # The smooth skin lies above or below its triangles by as much as their corners' normals tell.
+        bend = -0.5 * np.einsum("fki,fki->f", middle[:, None] - corners, normals[faces]) / 3.0
+        return cls(middle + bend[:, None] * normal, normal, size, _CLEAR + _UNSURE * np.abs(bend))
+
+    def facing(self, others: _Facets, tops: Floats) -> tuple[Ints, Ints]:
+        """Pairs of one of these and one of the others that its bulge, as high as ``tops`` [m], (k,), may meet."""
+        # A ball on a point of one that rests on a point of the other is at least half as wide as these are apart.
+        reach = 2.0 * tops + self.size
+        found = cKDTree(self.middle).sparse_distance_matrix(
+            cKDTree(others.middle), float(reach.max() + others.size.max()), output_type="ndarray"
+        )
+        mine, other = found["i"], found["j"]
+        near = found["v"] < reach[mine] + others.size[other]
+        mine, other = mine[near], other[near]
+        n, m = self.normal[mine], others.normal[other]
+        gap = np.einsum("ij,ij->i", self.middle[mine] - others.middle[other], m)
+        fits = (np.einsum("ij,ij->i", n, m) < _TURNED) & (gap > -self.size[mine])
+        return mine[fits], other[fits]
+
+    def radii(self, which: Ints, p: Floats, n: Floats) -> Floats:
+        """Radius of the ball at p with normal n that rests on the skin near some of these [m], (k,); inf where none does.
+
+        It rests on the plane of the triangle where it touches that within its size; and it never holds its middle.
+        """
+        away, m = p - self.middle[which], self.normal[which]
+        toward = -np.einsum("ij,ij->i", away, n)
+        turn = 1.0 - np.einsum("ij,ij->i", n, m)
+        gap = np.einsum("ij,ij->i", away, m)
+        plane = gap / np.maximum(turn, 1e-9)
+        touch = away + plane[:, None] * (n - m)
+        near = np.einsum("ij,ij->i", touch, touch) < self.size[which] ** 2
+        point = np.einsum("ij,ij->i", away, away) / np.maximum(2.0 * toward, 1e-12)
+        radius = np.minimum(np.where(near, plane, np.inf), np.where(toward > 0, point, np.inf))
+        return np.where((turn > 1.0 - _FACING) & (gap > 0), radius, np.inf)
+
+
+class _Creases:
+    """Edges at bulges, and the triangles around them."""
+
+    def __init__(self, skin: TriangleMesh, bulging: Ints) -> None:
+        near = np.zeros(len(skin.faces), dtype=bool)
+        near[bulging] = True
+        pairs = edge_neighbours(skin.faces)
+        self._pairs: Ints = pairs[near[pairs].any(axis=1)]
+        middle = skin.vertices[skin.faces[self._pairs]].mean(axis=2)
+        self._length = np.linalg.norm(middle[:, 1] - middle[:, 0], axis=1)
+        self._skin = skin
+
+    def sharp(self, tops: Floats, posed: Floats) -> NDArray[np.bool_]:
+        """Which triangles lie at an edge where the skin turns towards itself within some heights of its bulges, (m,)."""
+        faces, close = self._skin.faces, np.zeros(len(tops), dtype=bool)
+        top = np.maximum(tops[self._pairs[:, 0]], tops[self._pairs[:, 1]])
+        # The largest turn is a half one, and skin shrinks to a half at most.
+        chosen = np.flatnonzero((top > _LOW) & (0.5 * self._length < _SHARP * np.pi * top))
+        if not len(chosen):
+            return close
+        corners = posed[faces[self._pairs[chosen]]]
+        normal = [
+            unit(cross(each[:, 1] - each[:, 0], each[:, 2] - each[:, 0])) for each in (corners[:, 0], corners[:, 1])
+        ]
+        middle = corners.mean(axis=2)
+        step, apart = middle[:, 1] - middle[:, 0], normal[0] - normal[1]
+        cosine = np.clip(np.einsum("ij,ij->i", *normal), -1.0, 1.0)
+        length = np.sqrt(np.einsum("ij,ij->i", step, step))
+        hit = (np.einsum("ij,ij->i", step, apart) > 0) & (length < _SHARP * top[chosen] * np.arccos(cosine))
+        # And all around their corners.
+        at = np.zeros(len(posed), dtype=bool)
+        at[faces[self._pairs[chosen[hit]]]] = True
+        return np.asarray(at[faces].any(axis=1) if hit.any() else close)
+
+
+class _Patches:
+    """The skin in pieces of some millimetres, each with a place and a direction."""
+
+    def __init__(self, skin: TriangleMesh, bulging: Ints) -> None:
+        cells = np.floor(skin.vertices / _PATCH).astype(np.int64)
+        # Two sides of a thin part of the body are not one patch.
+        facing = np.argmax(np.abs(skin.vertex_normals), axis=1)
+        outward = np.take_along_axis(skin.vertex_normals, facing[:, None], axis=1)[:, 0] > 0
+        _, patch = np.unique(np.column_stack([cells, 2 * facing + outward]), axis=0, return_inverse=True)
+        patch = patch.reshape(-1)
+        size = np.bincount(patch)
+        columns = np.arange(len(patch))
+        self._mean = sparse.csr_array((1.0 / size[patch], (patch, columns)), shape=(len(size), len(columns)))
+        self._of_face: Ints = patch[skin.faces]
+        self._bulging_faces = bulging
+        self._bulging: Ints = np.unique(self._of_face[bulging])
+        self._count = len(size)
+        self._found: tuple[Floats, float, tuple[sparse.csr_array, Ints, Ints, Ints]] | None = None
+
+    def facing(self, tops: Floats, posed: Floats, normals: Floats) -> NDArray[np.bool_]:
+        """Which triangles belong to a patch with bulges that faces another closely, or to that other, (m,).
+
+        tops: how high the bulges of every triangle are [m], (m,). posed, normals: of the skin, (n, 3).
+        """
+        mean, first, second, kept = self._near(posed, normals, float(tops.max()))
+        both = mean @ np.concatenate([posed, normals], axis=1)
+        middle, normal = both[:, :3], unit(both[:, 3:])
+        top = np.zeros(self._count)
+        for k in range(3):
+            np.maximum.at(top, self._of_face[self._bulging_faces, k], tops[self._bulging_faces])
+        top = top[kept]
+        up = top[first] > _LOW
+        first, second = first[up], second[up]
+        step, n, m = middle[first] - middle[second], normal[first], normal[second]
+        turn = 1.0 - np.einsum("ij,ij->i", n, m)
+        gap = np.einsum("ij,ij->i", step, m)
+        # A sixth of a patch is how far skin of a patch may be from the plane of its middle where it bends.
+        slack = 0.15 * _PATCH
+        hit = (turn > 1.0 - _OPPOSED) & (gap > -slack) & (gap < turn * top[first] + 2.0 * slack)
+        hit &= np.einsum("ij,ij->i", step, n) < slack
+        hit &= np.einsum("ij,ij->i", step, step) < (1.7 * _PATCH + 2.0 * top[first]) ** 2
+        close = np.zeros(self._count, dtype=bool)
+        close[kept[first[hit]]] = close[kept[second[hit]]] = True
+        return np.asarray(close[self._of_face].any(axis=1))
+
+    def _near(self, posed: Floats, normals: Floats, top: float) -> tuple[sparse.csr_array, Ints, Ints, Ints]:
+        """Patches that bulge and others that look towards them, pair by pair; found again when the skin has moved.
+
+        Returns the matrix that takes the means over the patches of all pairs, (k, n), which of them each pair is, (pairs,)
+        twice, and which patches these are, (k,).
+        """
+        if self._found is not None:
+            before, room, pairs = self._found
+            moved = posed - before
+            if top <= room and np.einsum("ij,ij->i", moved, moved).max() < (0.5 * _SLACK) ** 2:
+                return pairs
+        both = self._mean @ np.concatenate([posed, normals], axis=1)
+        middle, normal = both[:, :3], unit(both[:, 3:])
+        room = 1.5 * top
+        # Two bulges, and from the middle of either patch to its corner.
+        reach = 1.7 * _PATCH + 2.0 * room + _SLACK
+        # Directions count as half of it: face to face they are nothing apart, side by side as much as it takes.
+        mine = np.concatenate([middle, 0.5 * reach * normal], axis=1)[self._bulging]
+        theirs = np.concatenate([middle, -0.5 * reach * normal], axis=1)
+        found = cKDTree(mine).sparse_distance_matrix(cKDTree(theirs), reach, output_type="ndarray")
+        both_ends = np.stack([self._bulging[found["i"]], found["j"]])
+        kept, local = np.unique(both_ends, return_inverse=True)
+        first, second = local.reshape(2, -1)
+        pairs = sparse.csr_array(self._mean[kept]), first, second, kept
+        self._found = posed, room, pairs
+        return pairs
