@@ -17,13 +17,24 @@ from .skin_shape import MOST_HIDDEN, pose_of, shape_of, smooth_pose_of
 class LivingBody(SkinBody):
     """A living skin and the parts of its head; made once per ``SkinSurface``."""
 
-    def __init__(self, context: moderngl.Context, programs: SkinPrograms, surface: SkinSurface) -> None:
+    def __init__(
+        self,
+        context: moderngl.Context,
+        programs: SkinPrograms,
+        surface: SkinSurface,
+        known: LivingBody | None = None,
+    ) -> None:
+        """known: one that was drawn before, of which the same head or the same fine wrinkles are taken over."""
         self.surface = surface
         self.head = surface.head
-        hidden, hidden_parts = hidden_of_head(context, self.head)
-        super().__init__(context, programs, shape_of(surface, hidden), self.head.skin)
-        self._parts = BodyParts(
-            context, programs.part, self.head, [np.minimum(part, MOST_HIDDEN) for part in hidden_parts]
+        same_head = known if known is not None and known.head is self.head else None
+        self._hidden = same_head._hidden if same_head is not None else hidden_of_head(context, self.head)
+        hidden, hidden_parts = self._hidden
+        super().__init__(context, programs, shape_of(surface, hidden), self.head.skin, known)
+        self._parts = (
+            same_head._parts
+            if same_head is not None
+            else BodyParts(context, programs.part, self.head, [np.minimum(part, MOST_HIDDEN) for part in hidden_parts])
         )
         self._roots_of: HairModel | None = None
         self._shown: tuple[LivingSkin, str] | None = None

@@ -233,7 +233,8 @@ class Renderer:
                 known = Body(self.context, self._body_programs, stage.head)
         else:
             if not isinstance(known, LivingBody) or known.surface is not stage.skin.surface:
-                known = LivingBody(self.context, self._skin_programs, stage.skin.surface)
+                before = known if isinstance(known, LivingBody) else None
+                known = LivingBody(self.context, self._skin_programs, stage.skin.surface, before)
             known.pose(stage.skin, look)
         self._body = known
         return known

@@ -54,13 +54,21 @@ class SkinBody:
     """A skin that is posed anew whenever it moves; made once per shape."""
 
     def __init__(
-        self, context: moderngl.Context, programs: SkinPrograms, shape: SkinShape, whole: TriangleMesh
+        self,
+        context: moderngl.Context,
+        programs: SkinPrograms,
+        shape: SkinShape,
+        whole: TriangleMesh,
+        known: SkinBody | None = None,
     ) -> None:
-        """whole: the skin at rest, as a surface that is open only where it ends."""
+        """whole: the skin at rest, as a surface that is open only where it ends. known: a body with perhaps the same fine
+        wrinkles, whose textures are large."""
         self.context = context
         self.programs = programs
         self._openings = Openings(whole)
-        self._relief = FineRelief(context, shape.fine)
+        self._fine = shape.fine
+        same_fine = known is not None and known._fine is shape.fine
+        self._relief = known._relief if known is not None and same_fine else FineRelief(context, shape.fine)
         self._order = order = order_of_use(shape.faces, len(shape.rest))
         place = np.empty_like(order)
         place[order] = np.arange(len(order))

@@ -126,8 +126,13 @@ class Builder:
         wrinkle = document.wrinkle
         furrows = wrinkle.furrow_set()
         face = self._part("face", head, lambda: Face(head))
+        # What a bed that was made before has in common with this one is taken over.
+        (known_head, *_), known = self._made.get("furrows", ((None,), None))
+        known = known if known_head is head else None
         bed = self._part(
-            "furrows", (head, wrinkle.lines(), wrinkle.fineness), lambda: face_bed(head, furrows, wrinkle.fineness)
+            "furrows",
+            (head, wrinkle.lines(), wrinkle.fineness),
+            lambda: face_bed(head, furrows, wrinkle.fineness, known, lambda: self._announce("furrows")),
         )
         creases = self._part("creases", (bed, wrinkle), lambda: face_creases(head, wrinkle, bed))
         fine = self._fine_wrinkles(document, bed.layout.texture_map)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..head.mesh import Floats
+from ..head.mesh import Floats, Ints
 from .furrow_bed import FurrowBed
-from .smooth_surface import PosedSurface, SmoothSurface
+from .smooth_surface import SmoothSurface
 from .vectors import cross
 
 # A furrow that runs along a border has no room for one of its bulges; the other does not grow without bounds.
@@ -23,13 +23,15 @@ def balance(bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> tupl
     mean curvature. Each is within a fifth, and some hundredths on a mesh that is fine enough for its furrows.
     """
     rest = surface.at(bed.layout.skin.vertices)
-    row = surface.row_of[bed.vertex]
+    fine = bed.refined.vertices.copy()
+    fine[surface.vertices] = rest.positions
     constant, linear = np.zeros_like(unit_height), np.zeros_like(unit_height)
     for k in range(len(bed.furrows)):
         own = np.flatnonzero(bed.furrow == k)
         heights = unit_height[own]
         higher = np.where(heights > 0, 1.0 + _TRIAL, 1.0) * heights
-        whole, half, raised = (_volume(bed, surface, rest, row[own], h) for h in (heights, 0.5 * heights, higher))
+        room = _Room(bed.refined.faces, fine, bed.vertex[own], rest.normals[surface.row_of[bed.vertex[own]]])
+        whole, half, raised = (room.displaced(h) for h in (heights, 0.5 * heights, higher))
         gain = (raised - whole) / _TRIAL
         if gain > 0:
             # V(M) = a M + b M^2, and the bulges give M gain for each part they are raised by.
@@ -39,17 +41,27 @@ def balance(bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> tupl
     return constant, linear
 
 
-def _volume(bed: FurrowBed, surface: SmoothSurface, rest: PosedSurface, rows: np.ndarray, heights: Floats) -> float:
-    """Volume between the skin at rest and the displaced one [m^3], to which outward counts as positive."""
-    fine = bed.refined.vertices.copy()
-    fine[surface.vertices] = rest.positions
-    touched = np.zeros(len(fine), dtype=bool)
-    touched[surface.vertices[rows]] = True
-    faces = bed.refined.faces[touched[bed.refined.faces].any(axis=1)]
-    before = fine[faces]
-    fine[surface.vertices[rows]] += heights[:, None] * rest.normals[rows]
-    middle = before.mean(axis=(0, 1)) if len(faces) else np.zeros(3)
-    return _enclosed(fine[faces] - middle) - _enclosed(before - middle)
+class _Room:
+    """The triangles around some vertices, and how much room these make when they are displaced along their normals."""
+
+    def __init__(self, faces: Ints, positions: Floats, vertices: Ints, normals: Floats) -> None:
+        """positions: of all vertices at rest [m], (N, 3). vertices: those displaced, (k,). normals: theirs, (k, 3)."""
+        touched = np.zeros(len(positions), dtype=bool)
+        touched[vertices] = True
+        faces = faces[touched[faces].any(axis=1)]
+        used, corner = np.unique(faces, return_inverse=True)
+        self._corner = corner.reshape(faces.shape)
+        self._middle = positions[used].mean(axis=0) if len(used) else np.zeros(3)
+        self._positions = positions[used] - self._middle
+        self._place = np.searchsorted(used, vertices)
+        self._normals = normals
+        self._before = _enclosed(self._positions[self._corner])
+
+    def displaced(self, heights: Floats) -> float:
+        """Volume between the skin at rest and the displaced one [m^3], to which outward counts as positive."""
+        moved = self._positions.copy()
+        moved[self._place] += heights[:, None] * self._normals
+        return _enclosed(moved[self._corner]) - self._before
 
 
 def _enclosed(triangles: Floats) -> float:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from ..head.head import Head
 from .creases import Creases
@@ -21,15 +22,33 @@ def face_layout(head: Head) -> SkinLayout:
     return SkinLayout(head.skin, part, texture_map)
 
 
-def face_bed(head: Head, furrows: Sequence[Furrow], fineness: float) -> FurrowBed:
+def face_bed(
+    head: Head,
+    furrows: Sequence[Furrow],
+    fineness: float,
+    known: FurrowBed | None = None,
+    tick: Callable[[], None] = lambda: None,
+) -> FurrowBed:
     """Prepare a head's skin for furrows of the face chart. Only where they run and how wide they are counts here.
 
     Those that the face does not reach are left out (a short neck may lack the lowest); ``chosen`` tells which are there.
+    known, tick: see ``prepare_bed``.
     """
-    chart = FaceChart(head, face_layout(head))
-    laid = {k: chart.to_texture(furrow) for k, furrow in enumerate(furrows)}
+    chart = _chart(head)
+    laid = {k: _on_chart(chart, furrow) for k, furrow in enumerate(furrows)}
     found = {k: furrow for k, furrow in laid.items() if furrow is not None}
-    return replace(prepare_bed(chart.layout, list(found.values()), fineness), chosen=tuple(found))
+    return replace(prepare_bed(chart.layout, list(found.values()), fineness, known, tick), chosen=tuple(found))
+
+
+@lru_cache(maxsize=2)
+def _chart(head: Head) -> FaceChart:
+    return FaceChart(head, face_layout(head))
+
+
+@lru_cache(maxsize=256)
+def _on_chart(chart: FaceChart, furrow: Furrow) -> Furrow | None:
+    """The furrow in texture space. Of many, one is drawn or moved: the others are where they were."""
+    return chart.to_texture(furrow)
 
 
 def face_creases(head: Head, settings: WrinkleSettings, bed: FurrowBed | None = None) -> Creases:

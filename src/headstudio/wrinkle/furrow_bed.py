@@ -1,26 +1,39 @@
 """Skin prepared for its furrows: fine enough to carry them, and who lies beside what.
 
-Nothing here depends on depth or amplitude, so that those can be changed at once.
+Furrows are laid one after the other, each into the skin as those before it have left it. So one more furrow changes
+nothing but the skin around it, and is there at once. Nothing here depends on depth or amplitude.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Ints
-from .conform import conform
+from .conform import Mask, conform
 from .furrow import Furrow
 from .laid_furrow import Beside, LaidFurrow
 from .refined_mesh import RefinedMesh
-from .refinement import FurrowLine, refine_around
+from .refinement import FurrowLine, faces_around, refine_around
 from .skin_layout import SkinLayout
 
 # Distances in space are a little shorter than on the skin; candidates are looked for this much farther.
 _SLACK = 1.05
+# After every so many furrows the skin is kept as it is then, and so it is before the last two: those that were drawn last.
+_KEPT_EVERY, _KEPT_LAST = 6, 2
+
+
+@dataclass(frozen=True, eq=False)
+class BedStage:
+    """The skin with the first ``count`` of its furrows. fixed: vertices on their lines, which stay where they are, (N,)."""
+
+    count: int
+    refined: RefinedMesh
+    fixed: Mask
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,49 +41,129 @@ class FurrowBed:
     """A refined skin and where its vertices lie beside furrows.
 
     layout: the skin and its map. furrows: k of them, laid in texture space. chosen: which of the furrows that were asked
-    for these are, (k,). refined: the finer mesh, N vertices.
+    for these are, (k,). refined: the finer mesh, N vertices. fineness: see ``prepare_bed``.
     The rest has an entry for every vertex within reach of a furrow (once for each furrow), i entries: vertex: which, (i,).
-    furrow: beside which, (i,). beside: where.
+    furrow: beside which, (i,). beside: where. stages: what another bed can begin from.
     """
 
     layout: SkinLayout
     furrows: tuple[LaidFurrow, ...]
     chosen: tuple[int, ...]
     refined: RefinedMesh
+    fineness: float
     vertex: Ints
     furrow: Ints
     beside: Beside
+    stages: tuple[BedStage, ...]
 
 
-def prepare_bed(layout: SkinLayout, furrows: Sequence[Furrow], fineness: float = 0.25) -> FurrowBed:
+def prepare_bed(
+    layout: SkinLayout,
+    furrows: Sequence[Furrow],
+    fineness: float = 0.25,
+    known: FurrowBed | None = None,
+    tick: Callable[[], None] = lambda: None,
+) -> FurrowBed:
     """Refine a skin around furrows whose control points are in its texture space.
 
-    fineness: length of the finest edges over the width of their furrow.
+    fineness: length of the finest edges over the width of their furrow. known: a bed that was prepared before; what it has
+    in common with this one is taken over, and the result is the same as without it. tick: is called before each furrow.
     """
-    laid = tuple(LaidFurrow(furrow, layout) for furrow in furrows)
-    spacing = [0.5 * fineness * furrow.furrow.width for furrow in laid]
-    lines = [FurrowLine(furrow.line(step), furrow.furrow.width) for furrow, step in zip(laid, spacing)]
-    refined = refine_around(layout.skin, lines, fineness)
-    fixed = np.zeros(len(refined.home), dtype=bool)
-    for furrow in laid:
-        for part in (0.0, fineness, -fineness):
-            refined, fixed = conform(refined, layout, furrow, part * furrow.furrow.width, fixed)
-    entries = [_within_reach(refined, layout, furrow) for furrow in laid]
+    if known is not None and (known.layout is not layout or known.fineness != fineness):
+        known = None
+    earlier = {_line(laid.furrow): k for k, laid in enumerate(known.furrows)} if known else {}
+    laid = tuple(
+        known.furrows[earlier[_line(furrow)]] if known and _line(furrow) in earlier else LaidFurrow(furrow, layout)
+        for furrow in furrows
+    )
+    stages = _common_stages(layout, laid, known)
+    stage = stages[-1]
+    for k in range(stage.count, len(laid)):
+        tick()
+        stage = _with_furrow(stage, layout, laid[k], fineness)
+        if stage.count % _KEPT_EVERY == 0 or stage.count >= len(laid) - _KEPT_LAST:
+            stages.append(stage)
+    refined, everywhere = stage.refined, np.ones(len(stage.refined.home), dtype=bool)
+    entries = []
+    if known is None:
+        entries = [_within_reach(refined, layout, furrow, everywhere) for furrow in laid]
+    else:
+        changed = _changed(refined, known.refined)
+        for furrow in laid:
+            before = earlier.get(_line(furrow.furrow))
+            if before is None:
+                entries.append(_within_reach(refined, layout, furrow, everywhere))
+            else:
+                entries.append(_kept_and_changed(known, before, refined, changed))
     return FurrowBed(
         layout,
-        laid,
+        tuple(each.named(furrow) for each, furrow in zip(laid, furrows)),
         tuple(range(len(laid))),
         refined,
+        fineness,
         np.concatenate([np.zeros(0, dtype=np.int64), *(vertices for vertices, _ in entries)]),
         np.repeat(np.arange(len(laid)), [len(vertices) for vertices, _ in entries]),
         _joined([beside for _, beside in entries]),
+        tuple(stages),
     )
 
 
-def _within_reach(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow) -> tuple[Ints, Beside]:
-    """The vertices that a furrow displaces, and where they lie beside it."""
+def _line(furrow: Furrow) -> tuple[object, ...]:
+    """All of a furrow that a bed depends on."""
+    return furrow.controls, furrow.width, furrow.taper
+
+
+def _common_stages(layout: SkinLayout, laid: Sequence[LaidFurrow], known: FurrowBed | None) -> list[BedStage]:
+    """The stages of ``known`` that come before the first other furrow; at least that without any."""
+    if known is None:
+        unrefined = RefinedMesh.unrefined(layout.skin)
+        return [BedStage(0, unrefined, np.zeros(len(unrefined.home), dtype=bool))]
+    same = takewhile(lambda pair: _line(pair[0].furrow) == _line(pair[1].furrow), zip(known.furrows, laid))
+    common = sum(1 for _ in same)
+    return [stage for stage in known.stages if stage.count <= common]
+
+
+def _with_furrow(stage: BedStage, layout: SkinLayout, furrow: LaidFurrow, fineness: float) -> BedStage:
+    """The skin with one more furrow."""
+    width = furrow.furrow.width
+    line = FurrowLine(furrow.line(0.5 * fineness * width), width)
+    near = faces_around(stage.refined, line)
+    around = refine_around(stage.refined.part(near), line, fineness, stage.refined.border(near))
+    if around is None:
+        # Triangles have to be split as far as the end of what was looked at, and beyond.
+        near = np.ones_like(near)
+        around = refine_around(stage.refined, line, fineness)
+        assert around is not None
+    fixed = np.concatenate([stage.fixed, np.zeros(len(around.home) - len(stage.fixed), dtype=bool)])
+    for part in (0.0, fineness, -fineness):
+        around, fixed = conform(around, layout, furrow, part * width, fixed)
+    return BedStage(stage.count + 1, around.beside(stage.refined.part(~near)), fixed)
+
+
+def _changed(refined: RefinedMesh, before: RefinedMesh) -> Mask:
+    """Which vertices are elsewhere on the skin than those with the same number were, or new, (N,)."""
+    count = min(len(refined.home), len(before.home))
+    changed = np.ones(len(refined.home), dtype=bool)
+    changed[:count] = (refined.home[:count] != before.home[:count]) | (
+        refined.weights[:count] != before.weights[:count]
+    ).any(axis=1)
+    return changed
+
+
+def _kept_and_changed(known: FurrowBed, number: int, refined: RefinedMesh, changed: Mask) -> tuple[Ints, Beside]:
+    """The same for a furrow that another bed has: only where vertices have ``changed``, (N,), they are looked at again."""
+    entries = slice(*np.searchsorted(known.furrow, [number, number + 1]))
+    vertices, beside = known.vertex[entries], _chosen(known.beside, entries)
+    kept = vertices < len(changed)
+    kept[kept] = ~changed[vertices[kept]]
+    others, beside_others = _within_reach(refined, known.layout, known.furrows[number], changed)
+    return np.concatenate([vertices[kept], others]), _joined([_chosen(beside, kept), beside_others])
+
+
+def _within_reach(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow, among: Mask) -> tuple[Ints, Beside]:
+    """The vertices that a furrow displaces, of those ``among``, (N,), and where they lie beside it."""
     low, high = furrow.points.min(axis=0) - furrow.reach, furrow.points.max(axis=0) + furrow.reach
-    boxed = ((refined.vertices > low) & (refined.vertices < high)).all(axis=1) & layout.mapped[refined.home]
+    boxed = among & ((refined.vertices > low) & (refined.vertices < high)).all(axis=1) & layout.mapped[refined.home]
     vertices = np.flatnonzero(boxed & (refined.weights.sum(axis=1) > 0))
     line = furrow.line(0.1 * furrow.reach)
     reach = _SLACK * (furrow.reach + 0.05 * furrow.reach)
@@ -78,7 +171,11 @@ def _within_reach(refined: RefinedMesh, layout: SkinLayout, furrow: LaidFurrow) 
     vertices = vertices[np.isfinite(away)]
     beside = furrow.beside(layout.uv(refined, vertices), layout.metrics(refined, vertices))
     kept = (beside.distance < furrow.reach) & (beside.fade > 0)
-    return vertices[kept], Beside(*(values[kept] for values in vars(beside).values()))
+    return vertices[kept], _chosen(beside, kept)
+
+
+def _chosen(beside: Beside, which: Mask | slice) -> Beside:
+    return Beside(*(values[which] for values in vars(beside).values()))
 
 
 def _joined(parts: Sequence[Beside]) -> Beside:

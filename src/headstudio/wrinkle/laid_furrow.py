@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,6 +62,12 @@ class LaidFurrow:
         steps = np.diff(places, axis=0)
         between = 0.5 * (self._metrics[1:] + self._metrics[:-1])
         self._arc = np.concatenate([[0.0], np.cumsum(np.sqrt(np.einsum("ki,kij,kj->k", steps, between, steps)))])
+
+    def named(self, furrow: Furrow) -> LaidFurrow:
+        """The same line as that of another furrow, of another name or depth."""
+        laid = copy(self)
+        laid.furrow = furrow
+        return laid
 
     @property
     def length(self) -> float:

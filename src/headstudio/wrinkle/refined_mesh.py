@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 
+from ..head.locate import locator
 from ..head.mesh import Floats, Ints, TriangleMesh
+
+# Weights of a point in a triangle add up to 1, but for rounding.
+_WITHIN = 1.0 - 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,15 +65,36 @@ class RefinedMesh:
     def between(self, edges: Ints, edge_of: Ints) -> tuple[Ints, Floats]:
         """The middles of edges, (e, 2): a coarse triangle that holds each, (e,), and where in it, (e, 3).
 
-        edge_of: which edge the sides 0-1, 1-2 and 2-0 of every triangle are, -1 for others, (M, 3). Only for a mesh whose
-        triangles lie within their parents, as they do until vertices are moved.
+        edge_of: which edge the sides 0-1, 1-2 and 2-0 of every triangle are, -1 for others, (M, 3).
         """
         home = np.empty(len(edges), dtype=np.int64)
         has = edge_of >= 0
         home[edge_of[has]] = np.broadcast_to(self.parent[:, None], edge_of.shape)[has]
         theirs, wanted = self.coarse.faces[self.home[edges]], self.coarse.faces[home]
         same = theirs[:, :, :, None] == wanted[:, None, None, :]
-        return home, 0.5 * np.einsum("eki,ekij->ej", self.weights[edges], same)
+        weights = 0.5 * np.einsum("eki,ekij->ej", self.weights[edges], same)
+        # Where a vertex was moved, triangles do not lie within their parents.
+        astray = np.flatnonzero(weights.sum(axis=1) < _WITHIN)
+        if len(astray):
+            found, _ = locator(self.coarse).nearest(self.vertices[edges[astray]].mean(axis=1))
+            home[astray], weights[astray] = found.faces, found.weights
+        return home, weights
+
+    def part(self, chosen: NDArray[np.bool_]) -> RefinedMesh:
+        """Only some of the triangles, (M,), with all vertices."""
+        return replace(self, faces=self.faces[chosen], parent=self.parent[chosen])
+
+    def border(self, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Which vertices have triangles that are ``chosen``, (M,), and others, (N,)."""
+        within, outside = (np.zeros(len(self.home), dtype=bool) for _ in range(2))
+        within[self.faces[chosen]] = True
+        outside[self.faces[~chosen]] = True
+        return within & outside
+
+    def beside(self, other: RefinedMesh) -> RefinedMesh:
+        """With the triangles of ``other``, whose vertices are the first of this mesh's own."""
+        faces, parent = np.concatenate([other.faces, self.faces]), np.concatenate([other.parent, self.parent])
+        return replace(self, faces=faces, parent=parent)
 
     def split(self, edge_of: Ints, home: Ints, weights: Floats) -> RefinedMesh:
         """The mesh with a new vertex on some of its edges, at ``weights`` in the coarse triangles ``home``, (e,).
