@@ -124,12 +124,12 @@ def test_keyframes_are_added_moved_played_and_deleted(face):
     assert earlier == pytest.approx(second.time / 2, rel=0.1)
     assert studio.work.history.undo_label == "Move keyframe"
     face.click("Transport/Reset")
-    rest = studio.stage.skin.skin.positions
+    rest = studio.stage.skin.posed
     studio.playback.playing = True
     face.until(lambda: studio.face_time > earlier)
     studio.playback.playing = False
     face.frames()
-    assert np.abs(studio.stage.skin.skin.positions - rest).max() > 1e-3
+    assert np.abs(studio.stage.skin.posed - rest).max() > 1e-3
     face.click_at(face.rect("Timeline/Key 2").centre)
     face.click("Timeline/Delete key")
     assert len(studio.document.face.performance) == 1

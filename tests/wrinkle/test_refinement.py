@@ -5,10 +5,11 @@ from functools import cache
 import igl
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree, cKDTree
 
 from headstudio.head.locate import Locator
 from headstudio.head.mesh import TriangleMesh
+from headstudio.wrinkle.creases import Creases
 from headstudio.wrinkle.furrow import Furrow
 from headstudio.wrinkle.furrow_bed import FurrowBed, prepare_bed
 from headstudio.wrinkle.mapping import map_to_texture
@@ -128,3 +129,46 @@ def test_a_skin_without_furrows_is_left_as_it_is():
     bed = prepare_bed(SkinLayout.of_map(flat_map(sheet(6))), [])
     assert np.array_equal(bed.refined.faces, bed.layout.skin.faces)
     assert len(bed.vertex) == 0
+
+
+BESIDE = Furrow(controls=((0.3, 0.45), (0.4, 0.5), (0.55, 0.35), (0.7, 0.45)), width=1.2e-3)
+
+
+def same_bed(one: FurrowBed, other: FurrowBed) -> bool:
+    entries = [np.lexsort((bed.vertex, bed.furrow)) for bed in (one, other)]
+    same = [
+        np.array_equal(one.refined.faces, other.refined.faces),
+        np.allclose(one.refined.weights, other.refined.weights),
+    ]
+    same += [np.array_equal(getattr(one, k)[entries[0]], getattr(other, k)[entries[1]]) for k in ("vertex", "furrow")]
+    return all(same) and np.allclose(one.beside.distance[entries[0]], other.beside.distance[entries[1]])
+
+
+@pytest.mark.parametrize("name", ["sheet", "finger"])
+def test_one_furrow_more_gives_the_bed_that_all_at_once_give(name):
+    before = bed_on(name)
+    whole = prepare_bed(before.layout, [CURVED, CROSSING, BESIDE])
+    laid = []
+    grown = prepare_bed(before.layout, [CURVED, CROSSING, BESIDE], known=before, tick=lambda: laid.append(1))
+    assert len(laid) == 1
+    assert same_bed(grown, whole)
+    # And back: what comes before the first other furrow is kept.
+    assert same_bed(prepare_bed(before.layout, [CURVED, CROSSING], known=grown), before)
+
+
+def test_a_furrow_that_is_moved_or_taken_away_leaves_finer_triangles_until_the_bed_is_settled():
+    before = bed_on("sheet")
+    moved = prepare_bed(before.layout, [BESIDE, CROSSING], known=before, settled=False)
+    fresh = prepare_bed(before.layout, [BESIDE, CROSSING])
+    assert not moved.settled
+    assert igl.is_edge_manifold(moved.refined.faces)
+    # The same furrows displace the same skin, whatever the triangles: compared where both have a vertex.
+    heights = [Creases(bed).displaced(before.layout.skin.vertices) for bed in (moved, fresh)]
+    places = [KDTree(skin.positions[:, :2]) for skin in heights]
+    near, at = places[1].query(places[0].data, distance_upper_bound=1e-6)
+    both = np.isfinite(near)
+    assert both.sum() > 500
+    assert np.allclose(heights[0].height[both], heights[1].height[at[both]], atol=2e-5)
+    settled = prepare_bed(before.layout, [BESIDE, CROSSING], known=moved)
+    assert settled.settled
+    assert same_bed(settled, fresh)

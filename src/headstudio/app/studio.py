@@ -29,6 +29,7 @@ from .work import Work
 # What the program foresaw and says in its own words; anything else is named with its type.
 FORESEEN = (HeadError, ParameterError, StylingError, ProjectError, RenderError, FilmError, OSError)
 
+SETTLE = 1.0  # seconds until furrows that were built in a hurry are built again
 DRAFT = 6000  # strands that are shown while something is dragged
 
 
@@ -54,7 +55,11 @@ class Studio:
         self.grown: Grown | None = None
         self.stage: Stage | None = None
         builder = Builder(lambda part: self.builds.announce(part))
-        self.builds: Builds[Grown] = Builds(lambda document: _grow(builder, document))
+        self.builds: Builds[Grown] = Builds(
+            lambda document: _grow(builder, document, settled=document is self._settling)
+        )
+        self._settling: Document | None = None
+        self._unsettled_for = 0.0
         self._tuned: Document | None = None
         self._refused: Document | None = None
 
@@ -134,6 +139,7 @@ class Studio:
         self.chores.report(self.messages)
         self._follow_document()
         self._take_build()
+        self._settle(wall)
         if self.grown is None:
             return
         with self.reporting() as outcome:
@@ -169,7 +175,7 @@ class Studio:
     @property
     def building(self) -> bool:
         """Whether hair is being built that the user waits for."""
-        return self.builds.wanted is not None
+        return self.builds.wanted is not None and self.builds.wanted is not self._settling
 
     def cancel_build(self) -> None:
         """Keep the hair as it is, and take back the change that asked for another."""
@@ -197,6 +203,14 @@ class Studio:
             self.builds.cancel()
         else:
             self.builds.request(document)
+
+    def _settle(self, wall: float) -> None:
+        """When nobody does anything for a while, build again what was built in a hurry; nobody sees a difference."""
+        idle = self.grown is not None and not self.grown.animation.settled and not self.work.in_gesture
+        self._unsettled_for = self._unsettled_for + wall if idle and self.builds.wanted is None else 0.0
+        if self._unsettled_for > SETTLE and self.grown is not None:
+            self._settling = replace(self.grown.document)
+            self.builds.request(self._settling)
 
     def _take_build(self) -> None:
         finished = self.builds.poll()
@@ -261,8 +275,8 @@ def explain(error: Exception) -> str:
     return text if isinstance(error, FORESEEN) else f"{type(error).__name__}: {text}"
 
 
-def _grow(builder: Builder, document: Document) -> Grown:
-    return Grown(document, Animation(builder, document, document.look.strands_shown))
+def _grow(builder: Builder, document: Document, *, settled: bool) -> Grown:
+    return Grown(document, Animation(builder, document, document.look.strands_shown, settled=settled))
 
 
 def _drafted(document: Document) -> Document:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
+from ..head.mesh import Floats
 from ..lcp.model import HairModel
 from ..scene.settings import Look
 from ..wrinkle.living_skin import LivingSkin, SkinSurface
@@ -27,14 +28,15 @@ class LivingBody(SkinBody):
         """known: one that was drawn before, of which the same head or the same fine wrinkles are taken over."""
         self.surface = surface
         self.head = surface.head
-        same_head = known if known is not None and known.head is self.head else None
-        self._hidden = same_head._hidden if same_head is not None else hidden_of_head(context, self.head)
+        known_head = known if known is not None and known.head is self.head else None
+        self._hidden: tuple[Floats, list[Floats]] = (
+            known_head._hidden if known_head else hidden_of_head(context, self.head)
+        )
         hidden, hidden_parts = self._hidden
         super().__init__(context, programs, shape_of(surface, hidden), self.head.skin, known)
-        self._parts = (
-            same_head._parts
-            if same_head is not None
-            else BodyParts(context, programs.part, self.head, [np.minimum(part, MOST_HIDDEN) for part in hidden_parts])
+        parts_hidden = [np.minimum(part, MOST_HIDDEN) for part in hidden_parts]
+        self._parts: BodyParts = (
+            known_head._parts if known_head else BodyParts(context, programs.part, self.head, parts_hidden)
         )
         self._roots_of: HairModel | None = None
         self._shown: tuple[LivingSkin, str] | None = None

@@ -68,7 +68,7 @@ class SkinBody:
         self._openings = Openings(whole)
         self._fine = shape.fine
         same_fine = known is not None and known._fine is shape.fine
-        self._relief = known._relief if known is not None and same_fine else FineRelief(context, shape.fine)
+        self._relief: FineRelief = known._relief if known and same_fine else FineRelief(context, shape.fine)
         self._order = order = order_of_use(shape.faces, len(shape.rest))
         place = np.empty_like(order)
         place[order] = np.arange(len(order))

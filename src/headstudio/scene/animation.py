@@ -24,15 +24,18 @@ class Animation:
     hairdo: the strands in their style, or None. skin: of a face that lives, or None.
     """
 
-    def __init__(self, builder: Builder, document: Document, strands: int | None = None) -> None:
-        """Build what the document asks for; ``strands``: of a hairstyle at most so many. Raises HeadError, ParameterError."""
+    def __init__(
+        self, builder: Builder, document: Document, strands: int | None = None, *, settled: bool = True
+    ) -> None:
+        """Build what the document asks for; ``strands``: of a hairstyle at most so many. settled: False is quicker where
+        furrows change, and leaves ``settled`` to be made up for. Raises HeadError, ParameterError."""
         self.document = document
         self.head = builder.head(document.head)
         self.scalp = builder.scalp(document)
         hair_as = document.look.hair_as
         self.simulation = Simulation(builder.build(document), document) if hair_as == "particles" else None
         self.hairdo = builder.hairdo(document, strands) if hair_as == "strands" else None
-        self.skin = builder.skin(document) if document.look.skin_as == "living" else None
+        self.skin = builder.skin(document, settled=settled) if document.look.skin_as == "living" else None
         self._shown: tuple[FaceSettings, LivingSkin] | None = None
         self._time = 0.0
         self._frame = HeadFrame()
@@ -42,6 +45,11 @@ class Animation:
     def time(self) -> float:
         """How long it has been going on [s]."""
         return self.simulation.time if self.simulation else self._time
+
+    @property
+    def settled(self) -> bool:
+        """Whether nothing is left on the skin of furrows that are no more."""
+        return self.skin is None or self.skin.surface.bed.settled
 
     @property
     def timings(self) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import os
 from collections.abc import Callable
@@ -24,7 +25,9 @@ from ..wrinkle.face import Face
 from ..wrinkle.face_creases import face_bed, face_creases
 from ..wrinkle.fine_guides import face_guides
 from ..wrinkle.fine_wrinkles import FineWrinkles, grow_fine_wrinkles
+from ..wrinkle.furrow_bed import FurrowBed
 from ..wrinkle.living_skin import Skin, SkinSurface
+from ..wrinkle.settings import WrinkleSettings
 from ..wrinkle.texture_map import TextureMap
 from .document import Document
 from .settings import HeadSettings
@@ -117,28 +120,33 @@ class Builder:
 
         return self._part(f"{region} skin", head, grow)
 
-    def skin(self, document: Document) -> Skin:
+    def skin(self, document: Document, *, settled: bool = True) -> Skin:
         """The skin of the head of ``document`` with its furrows and fine wrinkles, ready for any expression.
 
-        Raises HeadError.
+        settled: False is quicker where a furrow was moved or taken away, see ``prepare_bed``. Raises HeadError.
         """
         head = self.head(document.head)
         wrinkle = document.wrinkle
-        furrows = wrinkle.furrow_set()
         face = self._part("face", head, lambda: Face(head))
-        # What a bed that was made before has in common with this one is taken over.
-        (known_head, *_), known = self._made.get("furrows", ((None,), None))
-        known = known if known_head is head else None
-        bed = self._part(
-            "furrows",
-            (head, wrinkle.lines(), wrinkle.fineness),
-            lambda: face_bed(head, furrows, wrinkle.fineness, known, lambda: self._announce("furrows")),
-        )
+        bed = self._bed(head, wrinkle, settled)
         creases = self._part("creases", (bed, wrinkle), lambda: face_creases(head, wrinkle, bed))
         fine = self._fine_wrinkles(document, bed.layout.texture_map)
         # Who draws it keeps what it made of a surface, so a change of depth alone must not make another one.
         surface = self._part("surface", (bed, fine), lambda: SkinSurface(head, bed, fine))
         return self._part("skin", (face, surface, creases), lambda: Skin(face, surface, creases))
+
+    def _bed(self, head: Head, wrinkle: WrinkleSettings, settled: bool) -> FurrowBed:
+        """The skin prepared for furrows; what a bed that was made before has in common with it is taken over."""
+        known_for, known = self._made.get("furrows", (None, None))
+        if settled and known is not None and not known.settled:
+            del self._made["furrows"]
+
+        def make() -> FurrowBed:
+            earlier = known if known_for is not None and known_for[0] is head else None
+            step = functools.partial(self._announce, "furrows")
+            return face_bed(head, wrinkle.furrow_set(), wrinkle.fineness, earlier, step, settled=settled)
+
+        return self._part("furrows", (head, wrinkle.lines(), wrinkle.fineness), make)
 
     def _fine_wrinkles(self, document: Document, texture_map: TextureMap) -> FineWrinkles | None:
         if not document.fine.on:

@@ -28,16 +28,19 @@ def face_bed(
     fineness: float,
     known: FurrowBed | None = None,
     tick: Callable[[], None] = lambda: None,
+    *,
+    settled: bool = True,
 ) -> FurrowBed:
     """Prepare a head's skin for furrows of the face chart. Only where they run and how wide they are counts here.
 
     Those that the face does not reach are left out (a short neck may lack the lowest); ``chosen`` tells which are there.
-    known, tick: see ``prepare_bed``.
+    known, tick, settled: see ``prepare_bed``.
     """
     chart = _chart(head)
     laid = {k: _on_chart(chart, furrow) for k, furrow in enumerate(furrows)}
     found = {k: furrow for k, furrow in laid.items() if furrow is not None}
-    return replace(prepare_bed(chart.layout, list(found.values()), fineness, known, tick), chosen=tuple(found))
+    bed = prepare_bed(chart.layout, list(found.values()), fineness, known, tick, settled=settled)
+    return replace(bed, chosen=tuple(found))
 
 
 @lru_cache(maxsize=2)

@@ -6,7 +6,7 @@ nothing but the skin around it, and is there at once. Nothing here depends on de
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 
@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Ints
 from .conform import Mask, conform
-from .furrow import Furrow
+from .furrow import Controls, Furrow
 from .laid_furrow import Beside, LaidFurrow
 from .refined_mesh import RefinedMesh
 from .refinement import FurrowLine, faces_around, refine_around
@@ -25,6 +25,12 @@ from .skin_layout import SkinLayout
 _SLACK = 1.05
 # After every so many furrows the skin is kept as it is then, and so it is before the last two: those that were drawn last.
 _KEPT_EVERY, _KEPT_LAST = 6, 2
+# With more new furrows than these a bed is another one, and not one that was changed.
+_FEW = 4
+
+
+Line = tuple[Controls, float, float]
+"""All of a furrow that a bed depends on: control points, width and taper."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +49,8 @@ class FurrowBed:
     layout: the skin and its map. furrows: k of them, laid in texture space. chosen: which of the furrows that were asked
     for these are, (k,). refined: the finer mesh, N vertices. fineness: see ``prepare_bed``.
     The rest has an entry for every vertex within reach of a furrow (once for each furrow), i entries: vertex: which, (i,).
-    furrow: beside which, (i,). beside: where. stages: what another bed can begin from.
+    furrow: beside which, (i,). beside: where. laying: the lines that were laid, in their order, with those that are no
+    more. stages: what another bed can begin from.
     """
 
     layout: SkinLayout
@@ -54,7 +61,13 @@ class FurrowBed:
     vertex: Ints
     furrow: Ints
     beside: Beside
+    laying: tuple[Line, ...]
     stages: tuple[BedStage, ...]
+
+    @property
+    def settled(self) -> bool:
+        """Whether it is the same as if these furrows had been all that there ever were."""
+        return self.laying == tuple(_line(laid.furrow) for laid in self.furrows)
 
 
 def prepare_bed(
@@ -63,62 +76,79 @@ def prepare_bed(
     fineness: float = 0.25,
     known: FurrowBed | None = None,
     tick: Callable[[], None] = lambda: None,
+    *,
+    settled: bool = True,
 ) -> FurrowBed:
     """Refine a skin around furrows whose control points are in its texture space.
 
     fineness: length of the finest edges over the width of their furrow. known: a bed that was prepared before; what it has
-    in common with this one is taken over, and the result is the same as without it. tick: is called before each furrow.
+    in common with this one is taken over, and the result is the same as without it. tick: is called before each furrow that
+    is laid. settled: False takes ``known`` over with all of its furrows, those that are no more leave finer triangles
+    behind, and only those that are new are laid, if they are few.
     """
     if known is not None and (known.layout is not layout or known.fineness != fineness):
         known = None
-    earlier = {_line(laid.furrow): k for k, laid in enumerate(known.furrows)} if known else {}
-    laid = tuple(
-        known.furrows[earlier[_line(furrow)]] if known and _line(furrow) in earlier else LaidFurrow(furrow, layout)
-        for furrow in furrows
-    )
-    stages = _common_stages(layout, laid, known)
+    before = {_line(laid.furrow): k for k, laid in enumerate(known.furrows)} if known else {}
+    lines = tuple(_line(furrow) for furrow in furrows)
+    laid = {
+        line: known.furrows[before[line]] if known and line in before else LaidFurrow(furrow, layout)
+        for line, furrow in zip(lines, furrows)
+    }
+    laying = lines
+    if known is not None and not settled:
+        fresh = tuple(line for line in lines if line not in known.laying)
+        if len(fresh) <= _FEW:
+            laying = known.laying + fresh
+    stages = _common_stages(layout, laying, known)
     stage = stages[-1]
-    for k in range(stage.count, len(laid)):
+    for line in laying[stage.count :]:
         tick()
-        stage = _with_furrow(stage, layout, laid[k], fineness)
-        if stage.count % _KEPT_EVERY == 0 or stage.count >= len(laid) - _KEPT_LAST:
+        stage = _with_furrow(stage, layout, laid[line], fineness)
+        if stage.count % _KEPT_EVERY == 0 or stage.count >= len(laying) - _KEPT_LAST:
             stages.append(stage)
-    refined, everywhere = stage.refined, np.ones(len(stage.refined.home), dtype=bool)
-    entries = []
-    if known is None:
-        entries = [_within_reach(refined, layout, furrow, everywhere) for furrow in laid]
-    else:
-        changed = _changed(refined, known.refined)
-        for furrow in laid:
-            before = earlier.get(_line(furrow.furrow))
-            if before is None:
-                entries.append(_within_reach(refined, layout, furrow, everywhere))
-            else:
-                entries.append(_kept_and_changed(known, before, refined, changed))
+    entries = _entries(layout, stage.refined, [laid[line] for line in lines], known, before)
     return FurrowBed(
         layout,
-        tuple(each.named(furrow) for each, furrow in zip(laid, furrows)),
-        tuple(range(len(laid))),
-        refined,
+        tuple(laid[line].named(furrow) for line, furrow in zip(lines, furrows)),
+        tuple(range(len(lines))),
+        stage.refined,
         fineness,
         np.concatenate([np.zeros(0, dtype=np.int64), *(vertices for vertices, _ in entries)]),
-        np.repeat(np.arange(len(laid)), [len(vertices) for vertices, _ in entries]),
+        np.repeat(np.arange(len(lines)), [len(vertices) for vertices, _ in entries]),
         _joined([beside for _, beside in entries]),
+        laying,
         tuple(stages),
     )
 
 
-def _line(furrow: Furrow) -> tuple[object, ...]:
-    """All of a furrow that a bed depends on."""
+def _entries(
+    layout: SkinLayout,
+    refined: RefinedMesh,
+    furrows: Sequence[LaidFurrow],
+    known: FurrowBed | None,
+    before: Mapping[Line, int],
+) -> list[tuple[Ints, Beside]]:
+    """The vertices that each furrow displaces. before: the numbers that lines have in ``known``."""
+    everywhere = np.ones(len(refined.home), dtype=bool)
+    changed = _changed(refined, known.refined) if known is not None else everywhere
+    return [
+        _kept_and_changed(known, before[_line(furrow.furrow)], refined, changed)
+        if known is not None and _line(furrow.furrow) in before
+        else _within_reach(refined, layout, furrow, everywhere)
+        for furrow in furrows
+    ]
+
+
+def _line(furrow: Furrow) -> Line:
     return furrow.controls, furrow.width, furrow.taper
 
 
-def _common_stages(layout: SkinLayout, laid: Sequence[LaidFurrow], known: FurrowBed | None) -> list[BedStage]:
+def _common_stages(layout: SkinLayout, laying: tuple[Line, ...], known: FurrowBed | None) -> list[BedStage]:
     """The stages of ``known`` that come before the first other furrow; at least that without any."""
     if known is None:
         unrefined = RefinedMesh.unrefined(layout.skin)
         return [BedStage(0, unrefined, np.zeros(len(unrefined.home), dtype=bool))]
-    same = takewhile(lambda pair: _line(pair[0].furrow) == _line(pair[1].furrow), zip(known.furrows, laid))
+    same = takewhile(lambda pair: pair[0] == pair[1], zip(known.laying, laying))
     common = sum(1 for _ in same)
     return [stage for stage in known.stages if stage.count <= common]
 

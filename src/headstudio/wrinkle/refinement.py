@@ -89,7 +89,7 @@ def faces_around(refined: RefinedMesh, line: FurrowLine) -> NDArray[np.bool_]:
     for _ in range(_RINGS):
         touched = np.zeros(len(refined.home), dtype=bool)
         touched[refined.faces[near]] = True
-        near = touched[refined.faces].any(axis=1)
+        near[:] = touched[refined.faces].any(axis=1)
     return near
 
 
