@@ -29,7 +29,7 @@ class Driver:
         for _ in range(count):
             self.app.frame(FRAME)
 
-    def until(self, happened: Callable[[], bool], seconds: float = 60.0) -> None:
+    def until(self, happened: Callable[[], bool], seconds: float = 180.0) -> None:
         """Go on until something has happened; the wall clock ends a wait in vain."""
         deadline = time.perf_counter() + seconds
         while not happened():
