@@ -64,7 +64,7 @@ def measure(document: Document, scan: TriangleMesh, builder: Builder, laid: Floa
     """
     states = []
     for shown in (False, True):
-        skin = builder.skin(assign(document, {"wrinkle.shown": shown}))
+        skin = builder.skin(assign(document, {"wrinkle.shown": shown, "fine.on": False}))
         living = skin.at(document.face)
         mesh = skin.creases.mesh(living.skin)
         there = scan if laid is None or not shown else moved(scan, laid)
@@ -108,7 +108,7 @@ def fitted(document: Document, scan: TriangleMesh, builder: Builder) -> tuple[Do
         fit = fit_face(builder.head(document.head), scan, before, progress)
     changed = replace(wrinkle, furrows=fit.furrows, strength=1.0, breadth=1.0, shown=True)
     names = f": {', '.join(fit.moved)}" if fit.moved else ""
-    note = f"{fit.fitted} furrows in {len(fit.fit.grooves)} grooves, {len(fit.moved)} of them moved there{names}"
+    note = f"{fit.fitted} furrows, {len(fit.moved)} of them moved there{names}"
     return replace(document, wrinkle=changed), fit.fit.motion, note
 
 

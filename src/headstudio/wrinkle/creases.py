@@ -15,11 +15,12 @@ from scipy import sparse
 from ..head.mesh import Floats, Ints, TriangleMesh
 from .balance import balance
 from .blending import Blending
+from .cross_profile import section, section_slope
 from .furrow import Furrow
 from .furrow_bed import FurrowBed
 from .metric import perpendicular, vertex_metrics
 from .self_contact import Folds
-from .shape import amplitude, bounded_shape, bounded_slope
+from .shape import amplitude
 from .shrinkage import Measure, ShrinkageGauge, shrinkage_gauge
 from .smooth_surface import SmoothSurface
 from .vectors import unit
@@ -66,17 +67,14 @@ class Creases:
             raise ValueError(f"the skin is prepared for {len(bed.furrows)} furrows, not {len(furrows)}")
         self.bed = bed
         self.faces: Ints = bed.refined.faces
-        depth = strength * np.array([furrow.depth for furrow in furrows])[bed.furrow]
-        width = np.array([laid.furrow.width for laid in bed.furrows])[bed.furrow]
         self._initial = np.array([furrow.initial for furrow in furrows])[bed.furrow]
         self._surface = SmoothSurface(bed.refined, bed.layout, bed.vertex)
         self._row = self._surface.row_of[bed.vertex]
 
         beside = bed.beside
-        profile = bounded_shape(beside.distance, depth, width)
+        profile, slope = _sections(bed, strength * np.array([furrow.depth for furrow in furrows]))
         height = beside.fade * profile
-        slope = beside.fade * bounded_slope(beside.distance, depth, width)
-        gradient = slope[:, None] * beside.toward + profile[:, None] * beside.along
+        gradient = (beside.fade * slope)[:, None] * beside.toward + profile[:, None] * beside.along
         raised, raised_more = balance(bed, self._surface, height)
         height = (1.0 + raised) * height
         # From amplitudes of the entries to heights of the vertices and their derivatives by u and v; and from squared
@@ -134,6 +132,19 @@ class Creases:
         kept = coarse.copy()
         kept[vertices[:replaced]] = fine[:replaced]
         return np.concatenate([kept, fine[replaced:]])
+
+
+def _sections(bed: FurrowBed, depths: Floats) -> tuple[Floats, Floats]:
+    """Height of every entry where its furrow is whole [m], and the derivative by distance from it, (i,) each."""
+    beside = bed.beside
+    profile, slope = np.zeros((2, len(bed.furrow)))
+    for k, laid in enumerate(bed.furrows):
+        own = np.flatnonzero(bed.furrow == k)
+        side = beside.side[own]
+        across = side * beside.distance[own]
+        shape = depths[k], laid.furrow.width, laid.furrow.strands
+        profile[own], slope[own] = section(across, *shape), side * section_slope(across, *shape)
+    return profile, slope
 
 
 def _gauge_beside(bed: FurrowBed, measure: Measure) -> tuple[ShrinkageGauge, sparse.csr_array]:

@@ -11,15 +11,17 @@ from scipy import ndimage
 from ..head.mesh import Floats, TriangleMesh
 from .bezier import fit_stroke
 from .cross_section import cross_section, strands_for
-from .groove import Groove, Strand
-from .groove_fit import GrooveFit, uprightness
+from .groove import Groove
+from .groove_fit import GrooveFit
 from .scan_heights import ScanHeights, SkinTexels
 from .skin_layout import SkinLayout
 from .valley_lines import ValleyLine, valley_lines
-from .valleys import DENTS, valley_field
+from .valleys import valley_field
 
 # A change of shape is smooth over this [m]. Below this much of it beside the grooves [m], scan and skin count as one shape.
 _SMOOTH, _SAME_SHAPE = 0.014, 2.5e-4
+# A groove and its rims lie within so many widths.
+_FOOT = 4.0
 # A valley stands out when it is so many times the noise deep, this deep [m] and this part of the deepest.
 _OVER_NOISE, _SHALLOWEST, _PART = 4.0, 2.5e-4, 0.07
 # A first curve passes this near the valley [m]. It ends where less than this part of the depth is left.
@@ -28,17 +30,17 @@ _TOLERANCE, _ENDS = 3e-4, 0.25
 _SIDES, _WIDTH = 2.2, 1.2
 # Furrows that are shallower [m] or, end to end, shorter [m] than this are left out.
 _FAINT, _SHORT = 5e-5, 8e-3
-# Dents beside grooves are smooth over this [m], at least this deep [m] and no more than this many at a time.
-_DENT, _DENT_DEPTH, _DENTS = 4e-3, 1e-4, 6
-# A groove that brings the skin nearer by less than this part is left out; a furrow that is wider than this [m] is a dent.
-_WORTH, _BROAD = 0.004, 5e-3
+# A groove that brings the skin nearer by less than this part is left out.
+_WORTH = 0.004
 # Where sections are looked at, other grooves make at most this part of the depth; later on whatever they do.
 _CLEAR, _ANYWHERE = 0.12, np.inf
 # The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
 _PIECE = 0.014
-# Sweeps for single furrows, again with those that were missed, and twice for furrows side by side.
-_STEPS = (3, 2, 5, 10)
+# Sweeps for single shapes, for cross sections, and again with grooves that were missed.
+_STEPS = (3, 4, 8)
 _SETTLED = 4e-3
+# The depth of a groove may be another this far along it [m].
+_SWELL = 8e-3
 # Differences of this size [m] have half the say in what is a smooth change of shape.
 _ODD = 6e-4
 
@@ -75,27 +77,24 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     everywhere = np.ones_like(raw.height)
     progress("looking for valleys", 0.03)
     grooves = _first_grooves(raw.without(raw.low_pass(_SMOOTH, everywhere)))
-    # As long as grooves are not fitted, the skin beside them tells.
-    model = GrooveFit(raw, grooves).height
-    beside = np.where(np.abs(model) > _FAINT, 0.02, 1.0)
-    smooth = _notable(change_of_shape(raw, model, beside), raw, beside)
+    fit = GrooveFit(raw, grooves)
+    # A groove that gives more than its rims take lowers the skin on the whole: only what lies beside grooves tells.
+    beside = _beside(fit)
+    smooth = _notable(change_of_shape(raw, fit.height, beside), raw, beside)
     fit = GrooveFit(raw.without(smooth), grooves)
     _steps(fit, _STEPS[0], progress, "laying furrows", 0.06, 0.2)
 
     smooth = _notable(change_of_shape(raw, fit.height), raw, beside)
-    fit = _pruned(GrooveFit(raw.without(smooth), fit.grooves))
-    fit = fit.replaced([*fit.grooves, *_first_grooves(fit.heights.without(fit.height))])
-    _steps(fit, _STEPS[1], progress, "laying those that were missed", 0.2, 0.35)
+    progress("matching their cross sections", 0.2)
+    # Before sections are met, what single shapes leave beside grooves looks like valleys, too.
+    fit = _with_sections(_pruned(GrooveFit(raw.without(smooth), fit.grooves)), _CLEAR)
+    _steps(fit, _STEPS[1], progress, "moving and sizing them", 0.25, 0.45)
 
-    progress("matching their cross sections", 0.35)
-    fit = _side_by_side(_pruned(fit), _CLEAR)
-    fit = fit.replaced([*fit.grooves, *_dents(fit)])
-    _steps(fit, _STEPS[2], progress, "moving and sizing them", 0.4, 0.65)
-    progress("matching their cross sections", 0.65)
+    missed = _first_grooves(fit.heights.without(fit.height))
+    progress("matching their cross sections", 0.45)
     # Now that others are nearly right, sections can be seen between them.
-    fit = _side_by_side(_pruned(fit), _ANYWHERE)
-    fit = fit.replaced([*fit.grooves, *_dents(fit)])
-    _steps(fit, _STEPS[3], progress, "moving and sizing them", 0.7, 1.0, rigid=True)
+    fit = _with_sections(_pruned(fit.replaced([*fit.grooves, *missed])), _ANYWHERE)
+    _steps(fit, _STEPS[2], progress, "moving and sizing them", 0.5, 1.0, rigid=True)
     fit = _pruned(fit)
     progress("done", 1.0)
     return FurrowFit(tuple(fit.grooves), fit.motion, smooth, texels, fit.left)
@@ -121,17 +120,6 @@ def _first_grooves(heights: ScanHeights) -> list[Groove]:
     return [groove for groove in grooves if groove is not None]
 
 
-def _dents(fit: GrooveFit) -> list[Groove]:
-    """Broad shallow furrows where the skin beside grooves lies lower than these leave it."""
-    left = fit.heights.without(fit.height)
-    off = np.nan_to_num(left.height)
-    smooth = left.low_pass(_DENT, 1.0 / (1.0 + (off / _ODD) ** 2))
-    field = valley_field(replace(left, height=np.where(left.covered, smooth, np.nan)), DENTS)
-    lines = valley_lines(field, _DENT_DEPTH)[:_DENTS]
-    grooves = [_first_groove(replace(left, height=smooth), line) for line in lines]
-    return [groove for groove in grooves if groove is not None]
-
-
 def _first_groove(heights: ScanHeights, line: ValleyLine) -> Groove | None:
     """A furrow along a valley, without the ends where it has run out."""
     texels = heights.texels
@@ -152,7 +140,7 @@ def _first_groove(heights: ScanHeights, line: ValleyLine) -> Groove | None:
     if length < _SHORT:
         return None
     chain = fit_stroke(places[kept] / texels.size, _TOLERANCE / texels.layout.texture_map.metres)
-    return Groove(chain.controls, (Strand(0.0, max(float(np.median(depth[kept])), _FAINT), _WIDTH * line.width),))
+    return Groove(chain.controls, _WIDTH * line.width, ((0.0, max(float(np.median(depth[kept])), _FAINT), 1.0),))
 
 
 def change_of_shape(raw: ScanHeights, model: Floats | None = None, weight: Floats | None = None) -> Floats:
@@ -169,6 +157,14 @@ def change_of_shape(raw: ScanHeights, model: Floats | None = None, weight: Float
     return smooth
 
 
+def _beside(fit: GrooveFit) -> Floats:
+    """How much each texel tells about a smooth change of shape, (k,): little where a groove or its rims may be."""
+    beside = np.ones(len(fit.heights.height))
+    for bed in fit.beds:
+        beside[bed.rows[np.abs(bed.across) < _FOOT * bed.groove.width]] = 0.02
+    return beside
+
+
 def _notable(smooth: Floats, raw: ScanHeights, beside: Floats) -> Floats:
     """A smooth change of shape, (k,), or none where it is too little ``beside`` grooves, (k,), to be one."""
     size = np.sqrt(np.average(smooth[raw.covered] ** 2, weights=beside[raw.covered]))
@@ -176,38 +172,29 @@ def _notable(smooth: Floats, raw: ScanHeights, beside: Floats) -> Floats:
 
 
 def _pruned(fit: GrooveFit) -> GrooveFit:
-    """The fit without furrows that hardly show and grooves that hardly bring it nearer."""
-    worth = fit.worth()
-    kept = []
-    for groove, gain in zip(fit.grooves, worth):
-        strands = tuple(strand for strand in groove.strands if strand.depth > _FAINT)
-        if strands and gain > _WORTH:
-            kept.append(replace(groove, strands=strands))
-    return fit.replaced(kept)
+    """The fit without grooves that hardly bring the skin nearer."""
+    return fit.replaced([groove for groove, gain in zip(fit.grooves, fit.worth()) if gain > _WORTH])
 
 
-def _side_by_side(fit: GrooveFit, clear: float) -> GrooveFit:
-    """Each lone furrow of a groove joined by as many along it as its cross section asks for.
+def _with_sections(fit: GrooveFit, clear: float) -> GrooveFit:
+    """Each groove with the cross section that the scan has there, and free to swell along its way.
 
     clear: other grooves may make so much of the depth [m] where sections are looked at.
     """
-    upright = uprightness(fit.heights)
     grooves = []
     for bed in fit.beds:
-        strand = bed.groove.strands[0]
-        groove = bed.groove if strand.width > _BROAD else bed.groove.subdivided(_PIECE / bed.length)
-        if len(groove.strands) > 1 or strand.width > _BROAD:
-            grooves.append(groove)
-            continue
-        own = bed.heights()[0][0]
-        section = cross_section(
+        groove = bed.groove.subdivided(_PIECE / bed.length)
+        depth, _, half = groove.floor
+        own = bed.heights()[0]
+        seen = cross_section(
             bed.across,
             fit.heights.height[bed.rows],
             fit.height[bed.rows] - own,
-            bed.wholeness(strand.width),
-            clear * strand.depth,
-            strand,
-            upright[bed.rows],
+            bed.wholeness(),
+            clear * depth,
+            half,
         )
-        grooves.append(replace(groove, strands=strands_for(section, strand)))
+        strands = strands_for(seen, groove.width) or groove.strands
+        swell = groove.swell or (1.0,) * int(np.clip(bed.length / _SWELL, 3, 12))
+        grooves.append(replace(groove, strands=strands, swell=swell))
     return fit.replaced(grooves)

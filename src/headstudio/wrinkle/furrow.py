@@ -11,8 +11,10 @@ from typing import Any
 
 from ..params import ParameterError, number, parameters_of, text
 from .bezier import BezierChain
+from .cross_profile import Strands
 
 Controls = tuple[tuple[float, float], ...]
+_LISTS = ("controls", "strands", "swell")
 
 
 @dataclass(frozen=True)
@@ -20,7 +22,9 @@ class Furrow:
     """One large wrinkle: Bando's thesis, section 2.5.
 
     controls: control points of a chain of cubic Bezier curves, 3 k + 1 of them, on the face chart (see face_chart.py) or in
-    texture space, whatever it is used with. Raises ValueError for control points that are no chain.
+    texture space, whatever it is used with. strands: of its cross section, see cross_profile.py; none: it is (2.1). swell:
+    how much of the depth is there at evenly spaced places from its start to its end; none: all of it everywhere. Raises
+    ValueError for control points that are no chain.
     """
 
     name: str = text("furrow", "Name", "What this wrinkle is called.")
@@ -51,6 +55,9 @@ class Furrow:
         "The part of its length that a furrow takes to come to full depth at either end; never less than 4 widths.",
     )
 
+    strands: Strands = ()
+    swell: tuple[float, ...] = ()
+
     def __post_init__(self) -> None:
         chain = BezierChain(self.controls)  # type: ignore[arg-type]  # checks shape and numbers
         object.__setattr__(self, "controls", tuple((float(x), float(y)) for x, y in chain.controls))
@@ -80,13 +87,19 @@ def decode_furrows(content: bytes) -> tuple[Furrow, ...]:
 
 def _furrow(row: Any, number_: int) -> Furrow:
     known = parameters_of(Furrow)
-    if not isinstance(row, dict) or "controls" not in row or not set(row) <= {*known, "controls"}:
+    if not isinstance(row, dict) or "controls" not in row or not set(row) <= {*known, *_LISTS}:
         raise ValueError(f"does not describe its furrow {number_} by {', '.join(known)} and controls")
     try:
-        values = {key: known[key].check(row[key], key) for key in row if key != "controls"}
+        values = {key: known[key].check(row[key], key) for key in row if key not in _LISTS}
         controls = tuple((float(x), float(y)) for x, y in row["controls"])
         if not all(math.isfinite(c) for point in controls for c in point):
             raise ValueError("the control points of a curve are finite numbers")
-        return Furrow(**values, controls=controls)
+        strands = tuple((float(offset), float(depth), float(width)) for offset, depth, width in row.get("strands", ()))
+        if not all(abs(offset) <= 50 and abs(depth) <= 50 and 0.01 <= width <= 50 for offset, depth, width in strands):
+            raise ValueError("the strands of a cross section lie within 50 widths and are 0.01 to 50 wide")
+        swell = tuple(float(part) for part in row.get("swell", ()))
+        if not all(abs(part) <= 50 for part in swell):
+            raise ValueError("a furrow swells to at most 50 times its depth")
+        return Furrow(**values, controls=controls, strands=strands, swell=swell)
     except (ParameterError, TypeError, ValueError, OverflowError) as problem:
         raise ValueError(f"has a damaged furrow {number_}: {problem}") from None

@@ -116,7 +116,12 @@ def mirrored(furrow: Furrow, taken: Sequence[Furrow] = ()) -> Furrow:
     name = " ".join(turns.get(word, word) for word in furrow.name.split(" "))
     if name == furrow.name or any(other.name == name for other in taken):
         name = free_name(furrow.region or "furrow", taken)
-    return replace(furrow, name=name, controls=tuple((-x, y) for x, y in furrow.controls))
+    return replace(
+        furrow,
+        name=name,
+        controls=tuple((-x, y) for x, y in furrow.controls),
+        strands=tuple((-offset, depth, width) for offset, depth, width in furrow.strands),
+    )
 
 
 def _line(furrow: Furrow) -> Floats:

@@ -1,8 +1,4 @@
-"""A groove as it is fitted: one curve, and furrows of the shape (2.1) that run along it side by side.
-
-Real grooves have round floors and rims of their own. The shape (2.1) has a sharp floor, so one furrow comes near such a
-groove and a few parallel ones come close.
-"""
+"""A groove as it is fitted: one curve, a cross section of several shapes (2.1), and how its depth swells along it."""
 
 from __future__ import annotations
 
@@ -13,46 +9,56 @@ from scipy.interpolate import NearestNDInterpolator
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
-from .bezier import BezierChain, fit_stroke
-from .furrow import Controls, Furrow
+from .bezier import BezierChain
+from .cross_profile import Strands, section, section_slope, strand_heights, strands_reach
+from .furrow import Furrow
 from .laid_furrow import LaidFurrow, fade_length
 from .metric import perpendicular
 from .nearest import slid_to_nearest
 from .scan_heights import SkinTexels
-from .shape import REACH, bounded_shape, bounded_slope
+from .swell import swell_shares, swelling
 
 # Limits of what a fitted furrow may be [m].
-_DEPTHS, _WIDTHS, _TAPERS = (1e-5, 0.014), (1.2e-3, 0.016), (0.02, 0.5)
-# In one step depth and width change by at most this factor's logarithm, places by so much [m].
+_DEEPEST, _WIDTHS, _TAPERS = 0.014, (5e-4, 0.016), (0.02, 0.5)
+# Nowhere does a groove swell to more than this many times its depth.
+_FULLEST = 2.0
+# In one step width, taper and swell change by at most this (a factor's logarithm), places and depths by so much [m].
 _LOG_STEP, _STEP = 0.4, 1.5e-3
-# Fitted furrows of a groove follow its curve within this [m].
-_TOLERANCE = 1e-4
-# Samples of each of its Bezier curves, to begin from where feet are looked for.
+# Samples of each Bezier curve, to begin from where feet are looked for.
 _SAMPLES = 24
+# A cross section is looked at in so many places to find its floor.
+_PLACES = 801
 _TINY = np.finfo(float).tiny
-
-
-@dataclass(frozen=True)
-class Strand:
-    """One furrow of a groove. offset: how far to the left of the curve it runs [m]. depth, width: d and w [m]."""
-
-    offset: float
-    depth: float
-    width: float
 
 
 @dataclass(frozen=True, eq=False)
 class Groove:
-    """controls: of the curve, in texture space, (3 n + 1, 2). strands: its furrows. taper: how they end, see Furrow."""
+    """controls: of the curve, in texture space, (3 n + 1, 2). width: w [m]. strands: of the cross section, see
+    cross_profile.py, with depths in metres. taper, swell: see Furrow.
+    """
 
     controls: Floats
-    strands: tuple[Strand, ...]
+    width: float
+    strands: Strands
     taper: float = 0.2
+    swell: tuple[float, ...] = ()
 
     @property
     def chain(self) -> BezierChain:
         """The curve."""
         return BezierChain(self.controls)
+
+    @property
+    def floor(self) -> tuple[float, float, float]:
+        """How deep the groove is where it is deepest, how far to the left of its curve, and from there to the level of
+        the skin [m]."""
+        reach = min(strands_reach(self.strands), 12.0) * self.width
+        across = np.linspace(-reach, reach, _PLACES)
+        height = section(across, 1.0, self.width, self.strands)
+        lowest = int(height.argmin())
+        level = np.flatnonzero(height >= 0)
+        half = float(np.abs(across[level] - across[lowest]).min(initial=reach))
+        return -float(height[lowest]) * max(self.swell, default=1.0), float(across[lowest]), half
 
     def subdivided(self, longest: float) -> Groove:
         """The same with every Bezier curve halved that is longer than a part ``longest`` of the whole."""
@@ -66,22 +72,16 @@ class Groove:
             pieces.append(halves[1:])
         return replace(self, controls=np.concatenate(pieces))
 
-    def furrows(self, texels: SkinTexels, name: str, region: str = "") -> list[Furrow]:
-        """The furrows, all there at rest, with control points in texture space; the deepest carries the name."""
-        metrics = MetricField(texels)
-        t, places = self.chain.sampled(24)
-        left = metrics.across(places, self.chain.tangents(t))
-        furrows = []
-        for k, strand in enumerate(sorted(self.strands, key=lambda strand: -strand.depth)):
-            path = places + strand.offset * left
-            if strand.offset == 0:
-                controls: Controls = tuple((float(x), float(y)) for x, y in self.controls)
-            else:
-                fitted = fit_stroke(path, _TOLERANCE / texels.layout.texture_map.metres)
-                controls = tuple((float(x), float(y)) for x, y in fitted.controls)
-            label = name if k == 0 else f"{name}, along it {k}"
-            furrows.append(Furrow(label, region, strand.depth, strand.width, 1.0, controls, self.taper))
-        return furrows
+    def furrow(self, name: str, region: str = "") -> Furrow:
+        """As a furrow that is there at rest, with control points in texture space."""
+        depth, _, half = self.floor
+        depth, width = min(max(depth, 1e-6), _DEEPEST), float(np.clip(half, *_WIDTHS))
+        most = max(self.swell, default=1.0)
+        scale = self.width / width
+        strands = tuple((o * scale, d * most / depth, v * scale) for o, d, v in self.strands)
+        swell = tuple(part / most for part in self.swell)
+        controls = tuple((float(x), float(y)) for x, y in self.controls)
+        return Furrow(name, region, depth, width, 1.0, controls, self.taper, strands, swell)
 
 
 class MetricField:
@@ -106,7 +106,7 @@ class MetricField:
 
 
 class GrooveBed:
-    """Where texels lie beside the curve of a groove; depends on the curve and the widest strand alone.
+    """Where texels lie beside the curve of a groove; depends on the curve and how far it reaches alone.
 
     rows: the texels within reach, (i,). across: distance to the left of the curve [m], (i,). arc: length along it to the
     foot of each [m], (i,). length: of the curve [m].
@@ -114,8 +114,7 @@ class GrooveBed:
 
     def __init__(self, groove: Groove, texels: SkinTexels, metrics: MetricField, near: Ints) -> None:
         """near: the texels that may be within reach."""
-        widest = max(strand.width for strand in groove.strands)
-        farthest = max(abs(strand.offset) for strand in groove.strands)
+        reach = strands_reach(groove.strands) * groove.width
         laid = LaidFurrow(Furrow(controls=tuple((float(x), float(y)) for x, y in groove.controls)), texels.layout)
         self.groove = groove
         self.length = laid.length
@@ -127,7 +126,7 @@ class GrooveBed:
         mean = 0.5 * (texels.metrics[near] + at_samples[first])
         uv = laid.whole(texels.uv[near])
         found = slid_to_nearest(chain, uv, mean, samples[first])
-        kept = np.flatnonzero((found.distance < REACH * widest + farthest) & ~found.beyond)
+        kept = np.flatnonzero((found.distance < reach) & ~found.beyond)
         self.rows: Ints = near[kept]
         t, g = found.t[kept], texels.metrics[near[kept]]
         self.across = found.side[kept] * found.distance[kept]
@@ -150,42 +149,45 @@ class GrooveBed:
 
     @property
     def unknowns(self) -> int:
-        """Free control points, both ends, taper, and depth, width and offset of each strand."""
-        return len(self.free) + 3 + 3 * len(self.groove.strands)
+        """Free control points, both ends, taper, width, the depth of each strand and the swell."""
+        return len(self.free) + 4 + len(self.groove.strands) + len(self.groove.swell)
 
-    def heights(self) -> list[tuple[Floats, Floats]]:
-        """Height [m] and its derivatives by the unknowns, (i,) and (i, unknowns), strand by strand.
+    def scales(self, logarithm: float, place: float) -> Floats:
+        """The sizes of unknowns, (unknowns,), given those of logarithms and of lengths [m]."""
+        lengths, strands, swell = len(self.free) + 2, len(self.groove.strands), len(self.groove.swell)
+        return np.repeat([place, logarithm, place, logarithm], [lengths, 2, strands, swell])
 
-        Depth, width and taper count by their logarithms, places in metres.
+    def heights(self) -> tuple[Floats, Floats]:
+        """Height [m] and its derivatives by the unknowns, (i,) and (i, unknowns).
+
+        Width and taper count by their logarithms, places and depths in metres, the swell as it is.
         """
-        result = []
-        count = len(self.free)
-        for k, strand in enumerate(self.groove.strands):
-            offset = self.across - strand.offset
-            distance = np.abs(offset)
-            profile = bounded_shape(distance, strand.depth, strand.width)
-            slope = bounded_slope(distance, strand.depth, strand.width)
-            fade, by_start, by_end, by_width, by_taper = self._fade(strand.width)
-            derivative = np.zeros((len(offset), self.unknowns))
-            sideways = fade * slope * np.sign(offset)
-            derivative[:, :count] = sideways[:, None] * self.by_control
-            derivative[:, count], derivative[:, count + 1] = by_start * profile, by_end * profile
-            derivative[:, count + 2] = by_taper * profile
-            own = count + 3 + 3 * k
-            derivative[:, own] = fade * profile
-            derivative[:, own + 1] = -fade * distance * slope + by_width * profile
-            # A lone furrow stays on the curve, which moves instead.
-            derivative[:, own + 2] = -sideways if len(self.groove.strands) > 1 else 0.0
-            result.append((fade * profile, derivative))
-        return result
+        groove, count = self.groove, len(self.free)
+        profile = section(self.across, 1.0, groove.width, groove.strands)
+        slope = section_slope(self.across, 1.0, groove.width, groove.strands)
+        fade, *by_ends, by_width, by_taper = self._fade()
+        part = self.arc / self.length
+        swell = swelling(part, groove.swell)[0]
+        derivative = np.zeros((len(profile), self.unknowns))
+        derivative[:, :count] = (fade * swell * slope)[:, None] * self.by_control
+        for k, change in enumerate((*by_ends, by_taper)):
+            derivative[:, count + k] = swell * change * profile
+        derivative[:, count + 3] = swell * (by_width * profile - fade * self.across * slope)
+        own, last = count + 4, count + 4 + len(groove.strands)
+        derivative[:, own:last] = (fade * swell)[:, None] * strand_heights(self.across, groove.width, groove.strands)
+        if groove.swell:
+            derivative[:, last:] = (fade * profile)[:, None] * swell_shares(part, len(groove.swell))[0]
+        return fade * swell * profile, derivative
 
-    def wholeness(self, width: float) -> Floats:
-        """How much of a furrow of this width is there, (i,): 0 at the ends to 1."""
-        return _faded(self.arc, self.length, width, self.groove.taper)
+    def wholeness(self) -> Floats:
+        """How much of the groove is there, (i,): 0 at the ends to 1."""
+        fade = _faded(self.arc, self.length, self.groove.width, self.groove.taper)
+        return fade * swelling(self.arc / self.length, self.groove.swell)[0]
 
-    def _fade(self, width: float) -> tuple[Floats, ...]:
+    def _fade(self) -> tuple[Floats, ...]:
         """How much of the depth is there, and its derivatives by a longer start, a longer end, log width and log taper."""
-        fade, taper, step, part = self.wholeness(width), self.groove.taper, 1e-4, 0.01
+        width, taper, step, part = self.groove.width, self.groove.taper, 1e-4, 0.01
+        fade = _faded(self.arc, self.length, width, taper)
         longer_start = _faded(self.arc + step, self.length + step, width, taper)
         longer_end = _faded(self.arc, self.length + step, width, taper)
         wider = _faded(self.arc, self.length, (1 + part) * width, taper)
@@ -200,22 +202,24 @@ class GrooveBed:
 
     def moved(self, step: Floats) -> Groove:
         """The groove with its unknowns changed, (unknowns,)."""
-        count = len(self.free)
-        controls = self.groove.controls + self._moves @ (np.clip(step[:count], -_STEP, _STEP)[:, None] * self.free)
+        groove, count = self.groove, len(self.free)
+        controls = groove.controls + self._moves @ (np.clip(step[:count], -_STEP, _STEP)[:, None] * self.free)
         start, end = np.clip(step[count : count + 2], -2 * _STEP, 2 * _STEP)
         controls = _prolonged(controls, start / self._end_speed[0])
         controls = _prolonged(controls[::-1], end / self._end_speed[1])[::-1]
-        strands = []
-        for strand, (depth, width, offset) in zip(self.groove.strands, step[count + 3 :].reshape(-1, 3)):
-            strands.append(
-                Strand(
-                    strand.offset + float(np.clip(offset, -_STEP, _STEP)),
-                    float(np.clip(strand.depth * np.exp(np.clip(depth, -_LOG_STEP, _LOG_STEP)), *_DEPTHS)),
-                    float(np.clip(strand.width * np.exp(np.clip(width, -_LOG_STEP, _LOG_STEP)), *_WIDTHS)),
-                )
-            )
-        taper = float(np.clip(self.groove.taper * np.exp(np.clip(step[count + 2], -_LOG_STEP, _LOG_STEP)), *_TAPERS))
-        return Groove(controls, tuple(strands), taper)
+        taper, width = np.exp(np.clip(step[count + 2 : count + 4], -_LOG_STEP, _LOG_STEP)) * [
+            groove.taper,
+            groove.width,
+        ]
+        deeper = np.clip(step[count + 4 : count + 4 + len(groove.strands)], -_STEP, _STEP)
+        more = np.clip(step[count + 4 + len(groove.strands) :], -_LOG_STEP, _LOG_STEP)
+        return Groove(
+            controls,
+            float(np.clip(width, *_WIDTHS)),
+            tuple((offset, float(d + change), v) for (offset, d, v), change in zip(groove.strands, deeper)),
+            float(np.clip(taper, *_TAPERS)),
+            tuple(float(np.clip(part + change, 0.0, _FULLEST)) for part, change in zip(groove.swell, more)),
+        )
 
 
 def _faded(arc: Floats, length: float, width: float, taper: float) -> Floats:

@@ -16,19 +16,19 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..head.mesh import Floats, Ints
+from .cross_profile import strands_reach
 from .groove import Groove, GrooveBed, MetricField
 from .scan_heights import ScanHeights
-from .shape import REACH
 
 # Distances below this count by their square [m]: the noise of a scan.
 _NOISE = 1e-4
-# Depths of strands that share a place are joined as in blending.py.
+# Depths of grooves that share a place are joined as in blending.py.
 _POWER = 6.0
 _NOTHING = 1e-9
 _DAMPING, _EASED, _STIFFER, _TRIES = 1e-2, 0.3, 6.0, 4
 # The scale of the unknowns in the damping: logarithms, places [m], turns [rad].
 _LOG, _PLACE, _TURN = 0.3, 1e-3, 0.01
-# Texels farther than this from a curve's samples, besides the reach of its strands, are not looked at [m].
+# Texels farther than this from a curve's samples, besides its reach, are not looked at [m].
 _SLACK = 5e-3
 # How much denser the vertices of the wrinkled mesh are within a distance of a furrow [m]. Distances are a mean over these.
 _DENSE = ((2e-3, 5.0), (5e-3, 2.0))
@@ -39,17 +39,16 @@ class _Placed:
 
     def __init__(self, bed: GrooveBed) -> None:
         self.bed = bed
-        self.strands = bed.heights()
-        self.raised: Floats = np.sum([np.maximum(height, 0.0) for height, _ in self.strands], axis=0)
-        self.power: Floats = np.sum([np.maximum(-height, 0.0) ** _POWER for height, _ in self.strands], axis=0)
+        self.height, self._derivative = bed.heights()
+        self.raised: Floats = np.maximum(self.height, 0.0)
+        self.power: Floats = np.maximum(-self.height, 0.0) ** _POWER
 
     def slopes(self, joined: Floats) -> Floats:
         """Derivatives of the skin's height by the groove's unknowns, (i, unknowns). joined: the depth there [m], (i,)."""
-        slopes = np.zeros((len(self.bed.rows), self.bed.unknowns))
-        for height, derivative in self.strands:
-            # The joined depth is the larger but for rounding.
-            share = np.where(height < 0, -height / np.maximum(np.maximum(joined, -height), 1e-12), 1.0)
-            slopes += share[:, None] ** (_POWER - 1) * derivative
+        # The joined depth is the larger but for rounding.
+        depth = -self.height
+        share = np.where(depth > 0, depth / np.maximum(np.maximum(joined, depth), 1e-12), 1.0)
+        slopes = share[:, None] ** (_POWER - 1) * self._derivative
         # Far out everything is so small that arithmetic gets slow.
         return np.where(np.abs(slopes) < _NOTHING, 0.0, slopes)
 
@@ -151,9 +150,7 @@ class GrooveFit:
             bed = placed.bed
             joined = np.maximum(self._power[bed.rows] + placed.power, 0.0) ** (1 / _POWER)
             left = self.heights.height[bed.rows] - (self._raised[bed.rows] + placed.raised - joined)
-            scales = np.concatenate(
-                [np.full(len(bed.free) + 2, _PLACE), [_LOG], np.tile([_LOG, _LOG, _PLACE], len(bed.groove.strands))]
-            )
+            scales = bed.scales(_LOG, _PLACE)
             normal, pull = _equations(placed.slopes(joined) * scales, left, self._weights(bed.rows, left))
             for _ in range(_TRIES):
                 moved = bed.moved(scales * _step(normal, pull, self._damping[k]))
@@ -210,9 +207,7 @@ class GrooveFit:
 
     def _near(self, groove: Groove) -> Ints:
         """Covered texels that the groove may reach, now and after some steps."""
-        widest = max(strand.width for strand in groove.strands)
-        farthest = max(abs(strand.offset) for strand in groove.strands)
-        reach = REACH * widest + farthest + _SLACK
+        reach = strands_reach(groove.strands) * groove.width + _SLACK
         away, _ = cKDTree(self._line(groove)).query(self.texels.positions[self._rows], distance_upper_bound=reach)
         return self._rows[np.isfinite(away)]
 

@@ -9,10 +9,11 @@ import numpy as np
 
 from ..head.mesh import Floats
 from .bezier import BezierChain
+from .cross_profile import strands_reach
 from .furrow import Furrow
 from .nearest import nearest_on_curve, slid_to_nearest
-from .shape import REACH
 from .skin_layout import SkinLayout
+from .swell import swelling
 
 # Samples a curve, for lengths along it.
 _SAMPLES = 64
@@ -52,7 +53,7 @@ class LaidFurrow:
         self.furrow = furrow
         self.layout = layout
         self.chain: BezierChain = furrow.chain
-        self.reach = REACH * furrow.width
+        self.reach = strands_reach(furrow.strands) * furrow.width
         self._t, places = self.chain.sampled(_SAMPLES)
         found, _ = layout.locate(places)
         mesh = layout.texture_map.mesh
@@ -119,11 +120,12 @@ class LaidFurrow:
         from_end = np.minimum(arc, self.length - arc)
         part = np.clip(from_end / self.fade_length, 0.0, 1.0)
         rise = 6 * part * (1 - part) / self.fade_length * np.where(arc < 0.5 * self.length, 1.0, -1.0)
+        fade = part**2 * (3 - 2 * part)
+        swell, change = swelling(arc / self.length, self.furrow.swell)
+        fade, rise = swell * fade, swell * rise + fade * change / self.length
         along = np.einsum("kij,kj->ki", mean, tangent)
         along = _divided(along, np.sqrt(np.einsum("ki,ki->k", along, tangent)))
-        return Beside(
-            found.t, found.distance, found.side, ~found.beyond, part**2 * (3 - 2 * part), toward, rise[:, None] * along
-        )
+        return Beside(found.t, found.distance, found.side, ~found.beyond, fade, toward, rise[:, None] * along)
 
     def mirrored(self, t: Floats, uv: Floats) -> Floats:
         """Points, (k, 2), as far on the other side of the curve as ``uv`` are, whose nearest points are at t, (k,)."""

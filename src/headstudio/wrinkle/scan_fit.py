@@ -49,26 +49,19 @@ def fit_face(
     taken: set[int] = set()
     lines = [furrow.chain.sampled(40)[1] for furrow in furrows]
     for number, groove in enumerate(sorted(fit.grooves, key=_strongest, reverse=True), 1):
-        laid = [chart.to_chart(furrow) for furrow in groove.furrows(fit.texels, f"groove {number}")]
-        found = _nearest_known(laid[0], lines, taken)
+        laid = chart.to_chart(groove.furrow(f"groove {number}"))
+        found = _nearest_known(laid, lines, taken)
         if found is not None:
             taken.add(found)
-            laid = [
-                replace(
-                    furrow,
-                    name=furrow.name.replace(f"groove {number}", furrows[found].name),
-                    region=furrows[found].region,
-                )
-                for furrow in laid
-            ]
-        fitted += laid
+            laid = replace(laid, name=furrows[found].name, region=furrows[found].region)
+        fitted.append(laid)
     covered = fit.texels.positions[np.isfinite(fit.left)]
     others = [_at_rest(furrow, chart, covered) for k, furrow in enumerate(furrows) if k not in taken]
     return ScanFit((*fitted, *others), len(fitted), tuple(furrows[k].name for k in sorted(taken)), fit)
 
 
 def _strongest(groove: Groove) -> float:
-    return max(strand.depth for strand in groove.strands) * len(groove.controls)
+    return groove.floor[0] * len(groove.controls)
 
 
 def _nearest_known(furrow: Furrow, lines: Sequence[Floats], taken: set[int]) -> int | None:

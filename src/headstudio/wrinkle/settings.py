@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ..params import choice, number, switch
 from .default_furrows import default_furrows
-from .furrow import Controls, Furrow
+from .furrow import Furrow
 from .shrinkage import MEASURES
 
 
@@ -45,6 +46,6 @@ class WrinkleSettings:
         widest = 0.02
         return tuple(replace(furrow, width=min(furrow.width * self.breadth, widest)) for furrow in self.chosen)
 
-    def lines(self) -> tuple[tuple[Controls, float, float], ...]:
+    def lines(self) -> tuple[tuple[Any, ...], ...]:
         """Where the furrows run, how wide they are, how they end: all that the skin has to be prepared for again."""
-        return tuple((furrow.controls, furrow.width, furrow.taper) for furrow in self.furrow_set())
+        return tuple((f.controls, f.width, f.taper, f.strands, f.swell) for f in self.furrow_set())

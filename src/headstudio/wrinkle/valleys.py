@@ -17,8 +17,8 @@ from .scan_heights import ScanHeights
 ANGLES = 16
 """Directions that a valley is looked for along, evenly over half a turn."""
 
-# Standard deviations of the filters across [m], for grooves and for broad dents, and how much longer they are along.
-GROOVES, DENTS = (1.2e-3, 2.0e-3, 3.2e-3), (5e-3, 8e-3)
+# Standard deviations of the filters across [m], and how much longer they are along.
+GROOVES = (1.2e-3, 2.0e-3, 3.2e-3)
 _ALONG = 3.0
 # A valley answers to angles near its own, too. Only those are kept that answer most within so many angles of them.
 _PEAK = 3
