@@ -28,6 +28,8 @@ _LOG_STEP, _STEP = 0.4, 1.5e-3
 _SAMPLES = 24
 # A cross section is looked at in so many places to find its floor.
 _PLACES = 801
+# Less height than this is nothing [m].
+_SHOWN = 5e-6
 _TINY = np.finfo(float).tiny
 
 
@@ -59,6 +61,14 @@ class Groove:
         level = np.flatnonzero(height >= 0)
         half = float(np.abs(across[level] - across[lowest]).min(initial=reach))
         return -float(height[lowest]) * max(self.swell, default=1.0), float(across[lowest]), half
+
+    @property
+    def reach(self) -> float:
+        """How far from its curve the groove shows [m]."""
+        farthest = strands_reach(self.strands) * self.width
+        across = np.linspace(-farthest, farthest, _PLACES)
+        shown = np.abs(section(across, 1.0, self.width, self.strands)) > _SHOWN
+        return float(np.abs(across[shown]).max(initial=self.width)) + 2 * farthest / _PLACES
 
     def subdivided(self, longest: float) -> Groove:
         """The same with every Bezier curve halved that is longer than a part ``longest`` of the whole."""
@@ -114,7 +124,7 @@ class GrooveBed:
 
     def __init__(self, groove: Groove, texels: SkinTexels, metrics: MetricField, near: Ints) -> None:
         """near: the texels that may be within reach."""
-        reach = strands_reach(groove.strands) * groove.width
+        reach = groove.reach
         laid = LaidFurrow(Furrow(controls=tuple((float(x), float(y)) for x, y in groove.controls)), texels.layout)
         self.groove = groove
         self.length = laid.length

@@ -16,7 +16,6 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..head.mesh import Floats, Ints
-from .cross_profile import strands_reach
 from .groove import Groove, GrooveBed, MetricField
 from .scan_heights import ScanHeights
 
@@ -207,7 +206,7 @@ class GrooveFit:
 
     def _near(self, groove: Groove) -> Ints:
         """Covered texels that the groove may reach, now and after some steps."""
-        reach = strands_reach(groove.strands) * groove.width + _SLACK
+        reach = groove.reach + _SLACK
         away, _ = cKDTree(self._line(groove)).query(self.texels.positions[self._rows], distance_upper_bound=reach)
         return self._rows[np.isfinite(away)]
 
