@@ -134,7 +134,7 @@ def needs(document: Document) -> tuple[Any, ...]:
         hair = (document.wisp, document.beard, document.colour, document.styling, look.strands_shown)
     elif look.hair_as == "particles":
         hair = (document.hair,)
-    skin = (document.wrinkle, document.fine) if look.skin_as == "living" else ()
+    skin = (replace(document.wrinkle, proposals=()), document.fine) if look.skin_as == "living" else ()
     return (document.head, document.scalp, look.hair_as, *hair, look.skin_as, *skin)
 
 

@@ -174,6 +174,7 @@ ATTACHMENTS = (
     Attachment("wisp.painted_protrusion", "wisp/protrusion.png", encode_gray, decode_gray),
     Attachment("face.painted_tissue", "face/tissue.png", encode_gray, decode_gray),
     Attachment("wrinkle.furrows", "wrinkle/furrows.json", encode_furrows, decode_furrows),
+    Attachment("wrinkle.proposals", "wrinkle/proposals.json", encode_furrows, decode_furrows),
     Attachment("face.performance", "face/performance.json", encode_performance, decode_performance),
     Attachment("fine.vectors", "fine/directions.json", encode_vectors, decode_vectors),
     Attachment("fine.painted_strength", "fine/strength.png", encode_gray, decode_gray),

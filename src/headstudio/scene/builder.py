@@ -126,7 +126,8 @@ class Builder:
         settled: False is quicker where a furrow was moved or taken away, see ``prepare_bed``. Raises HeadError.
         """
         head = self.head(document.head)
-        wrinkle = document.wrinkle
+        # What is only proposed changes nothing.
+        wrinkle = replace(document.wrinkle, proposals=())
         face = self._part("face", head, lambda: Face(head))
         bed = self._bed(head, wrinkle, settled)
         creases = self._part("creases", (bed, wrinkle), lambda: face_creases(head, wrinkle, bed))

@@ -16,6 +16,7 @@ class WrinkleSettings:
     """Large wrinkles: Bando's thesis, section 2.5.
 
     furrows: on the face chart (see face_chart.py), so that they follow a change of head. Empty: the default set at ``age``.
+    proposals: furrows that were inferred and that the artist has neither accepted nor rejected; they displace nothing.
     """
 
     shown: bool = switch(True, "Wrinkles", "Displace the skin along its furrows.", live=True)
@@ -35,6 +36,7 @@ class WrinkleSettings:
     )
     self_contact: bool = switch(True, "Self-contact", "Bulges on both sides of a fold stop where they meet.", live=True)
     furrows: tuple[Furrow, ...] = ()
+    proposals: tuple[Furrow, ...] = ()
 
     @property
     def chosen(self) -> tuple[Furrow, ...]:

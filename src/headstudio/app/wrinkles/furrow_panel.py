@@ -13,6 +13,7 @@ from .. import theme
 from ..parameter_rows import ParameterRows
 from ..ui import Ui
 from .furrow_set import FurrowSet
+from .proposals import Proposals
 
 AGES = {"Child": 0.05, "Young": 0.2, "Adult": 0.4, "Aged": 0.7, "Old": 1.0}
 HEIGHT = 150.0
@@ -24,14 +25,16 @@ LARGE = ("shown", "strength", "breadth", "fineness", "self_contact", "shrinkage"
 class FurrowPanel:
     """Everything about large wrinkles: Bando's thesis, section 2.5."""
 
-    def __init__(self, rows: ParameterRows, furrows: FurrowSet) -> None:
+    def __init__(self, rows: ParameterRows, furrows: FurrowSet, proposals: Proposals) -> None:
         self.rows = rows
         self._set = furrows
+        self._proposals = proposals
         self._seen: int | None = None
 
     def draw(self, ui: Ui) -> None:
-        """Ages, the list, the chosen furrow, and what holds for all."""
+        """Ages, proposals, the list, the chosen furrow, and what holds for all."""
         self._draw_ages(ui)
+        self._draw_proposals(ui)
         self._draw_list(ui)
         number = self._set.chosen
         if number is None:
@@ -63,6 +66,50 @@ class FurrowPanel:
         wrinkle = replace(document.wrinkle, age=age, furrows=())
         self._set.chosen = None
         self.rows.change(replace(document, wrinkle=wrinkle), f"{name} skin")
+
+    def _draw_proposals(self, ui: Ui) -> None:
+        proposals = self._proposals
+        proposals.poll()
+        with ui.within("Proposals"):
+            progress = proposals.progress
+            if progress is not None:
+                left = imgui.get_content_region_avail().x - ui.px(86)
+                imgui.progress_bar(progress, (left, 0), "Watching the skin")
+                imgui.same_line()
+                if ui.button("Cancel", "Propose nothing.", width=ui.px(78)):
+                    proposals.cancel()
+                return
+            help_ = "Furrows where expressions press the skin together, for you to accept, drag or reject."
+            if ui.button("Propose from expressions", help_, icon=icons.ICON_FA_WAND_MAGIC_SPARKLES, width=-1.0):
+                proposals.search()
+            if proposals.furrows:
+                self._draw_answers(ui)
+
+    def _draw_answers(self, ui: Ui) -> None:
+        """What is proposed, and what the artist says to it."""
+        proposals, number = self._proposals, self._proposals.chosen
+        count = len(proposals.furrows)
+        if number is None:
+            ui.muted(f"{count} proposed, dashed on the face. Click one to look at it.")
+        else:
+            furrow = proposals.furrows[number]
+            ui.muted(
+                f"{furrow.name}: {1e3 * furrow.depth:.1f} mm deep, {1e3 * furrow.width:.1f} mm wide, "
+                f"{furrow.initial:.0%} at rest"
+            )
+        width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+        if ui.button("Accept", "Make this proposal a furrow.", enabled=number is not None, width=width):
+            assert number is not None
+            self._set.chosen = proposals.accept(number)
+        imgui.same_line()
+        if ui.button("Reject", "Take this proposal away (Delete).", enabled=number is not None, width=width):
+            assert number is not None
+            proposals.reject(number)
+        if ui.button("Accept all", "Make all proposals furrows.", width=width):
+            proposals.accept_all()
+        imgui.same_line()
+        if ui.button("Reject all", "Take all proposals away.", width=width):
+            proposals.reject_all()
 
     def _draw_list(self, ui: Ui) -> None:
         furrows = self._set.furrows

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from imgui_bundle import icons_fontawesome_6 as icons
@@ -16,12 +16,14 @@ from ..studio import Studio
 from ..ui import Ui
 from .furrow_lines import FurrowLines, furrow_lines, handle_places
 from .furrow_set import FurrowSet
-from .skin_canvas import SkinCanvas, Touch, as_points, draw_line
+from .proposals import Proposals
+from .skin_canvas import SkinCanvas, Touch, as_points, draw_dashes, draw_line
 from .skin_tool import SkinTool
 
 GRAB = 9.0  # how near a handle has to be, in units of a plain screen
 GRAB_LINE = 6.0
 STEP = 2.0  # the mouse moves so far for the next point of a stroke
+PROPOSED = theme.SERIES[1]
 SHORTEST = 3e-3  # a stroke shorter than this is a click [m]
 
 
@@ -36,7 +38,7 @@ class _Stroke:
 @dataclass(frozen=True)
 class _Hold:
     """What the mouse holds: a handle of the chosen furrow, or all of it; where it was taken, on the chart [m], and where the
-    mouse was then.
+    mouse was then. number: of the furrow, or of the proposal that becomes one when it is dragged.
     """
 
     number: int
@@ -44,6 +46,7 @@ class _Hold:
     handle: int | None
     taken_at: Floats
     touch: Touch
+    proposed: bool = False
 
 
 class FurrowTool(SkinTool):
@@ -53,19 +56,25 @@ class FurrowTool(SkinTool):
     icon = icons.ICON_FA_PEN_NIB
     help = (
         "Draw on the face: a new furrow. Click one to choose it, drag it or its handles. Ctrl+click its line for another "
-        "handle, a handle to take it away; Delete takes the furrow."
+        "handle, a handle to take it away; Delete takes the furrow. Dashed lines are proposals: drag one to have it."
     )
 
     def __init__(self, studio: Studio) -> None:
         super().__init__(studio)
         self.set = FurrowSet(studio)
+        self.proposals = Proposals(studio)
         self._stroke: _Stroke | None = None
         self._hold: _Hold | None = None
         self._moving = False
 
     def press_on(self, canvas: SkinCanvas, touch: Touch) -> bool:
-        """Take a handle or a furrow, or begin a stroke."""
-        return self._take_handle(canvas, touch) or self._take_furrow(canvas, touch) or self._begin_stroke(canvas, touch)
+        """Take a handle, a furrow or a proposal, or begin a stroke."""
+        return (
+            self._take_handle(canvas, touch)
+            or self._take_furrow(canvas, touch)
+            or self._take_proposal(canvas, touch)
+            or self._begin_stroke(canvas, touch)
+        )
 
     def drag_on(self, canvas: SkinCanvas, touch: Touch) -> None:
         """Draw on, or move what is held."""
@@ -88,7 +97,7 @@ class FurrowTool(SkinTool):
         if stroke is not None:
             points = np.array(stroke.chart)
             if np.linalg.norm(np.diff(points, axis=0), axis=1).sum() < SHORTEST:
-                self.set.chosen = None
+                self.set.chosen = self.proposals.chosen = None
             else:
                 with self.studio.reporting():
                     age = self.studio.document.wrinkle.age
@@ -103,8 +112,12 @@ class FurrowTool(SkinTool):
 
     def draw_on(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, touch: Touch | None) -> None:
         """All furrows as lines, the handles of the chosen one, and the stroke that is being drawn."""
-        if touch is not None and imgui.is_key_pressed(imgui.Key.delete) and self.set.chosen is not None:
-            self.set.remove(self.set.chosen)
+        if touch is not None and imgui.is_key_pressed(imgui.Key.delete):
+            if self.set.chosen is not None:
+                self.set.remove(self.set.chosen)
+            elif self.proposals.chosen is not None:
+                self.proposals.reject(self.proposals.chosen)
+        self._draw_proposals(canvas, drawing, touch)
         lines = self._lines(canvas)
         points, seen = canvas.on_screen(lines.places), canvas.seen(lines.places)
         pointed = self._pointed_at(canvas, touch) if touch is not None and self._hold is None else None
@@ -157,6 +170,16 @@ class FurrowTool(SkinTool):
         self._take(_Hold(number, furrow, None, on_chart, touch))
         return True
 
+    def _take_proposal(self, canvas: SkinCanvas, touch: Touch) -> bool:
+        """A click looks at a proposal; dragged it is accepted."""
+        number, place = self._nearest_proposal(canvas, touch), canvas.under(touch.x, touch.y)
+        if number is None or place is None:
+            return False
+        self.set.chosen, self.proposals.chosen = None, number
+        furrow = self.proposals.furrows[number]
+        self._take(_Hold(number, furrow, None, canvas.faces.on_chart(place)[0], touch, proposed=True))
+        return True
+
     def _begin_stroke(self, canvas: SkinCanvas, touch: Touch) -> bool:
         place = canvas.under(touch.x, touch.y)
         if place is None:
@@ -166,9 +189,15 @@ class FurrowTool(SkinTool):
 
     def _take(self, hold: _Hold) -> None:
         self._hold, self._moving = hold, False
-        self.studio.work.begin_gesture("Move furrow")
+        if not hold.proposed:
+            self.proposals.chosen = None
+        self.studio.work.begin_gesture("Move proposal" if hold.proposed else "Move furrow")
 
     def _move(self, hold: _Hold, to: Floats) -> None:
+        if hold.proposed:
+            number = self.proposals.accept(hold.number, "Move proposal")
+            hold = self._hold = replace(hold, number=number, proposed=False)
+            self.set.chosen = number
         furrow, handle = hold.furrow, hold.handle
         moved = shifted(furrow, to - hold.taken_at) if handle is None else with_control(furrow, handle, to)
         self.set.put(hold.number, moved, "Move furrow")
@@ -180,6 +209,23 @@ class FurrowTool(SkinTool):
         lines = self._lines(canvas)
         found = canvas.nearest(lines.places, touch, GRAB_LINE)
         return int(lines.furrow[found]) if found is not None else None
+
+    def _nearest_proposal(self, canvas: SkinCanvas, touch: Touch) -> int | None:
+        lines = furrow_lines(canvas.faces, tuple(furrow.controls for furrow in self.proposals.furrows))
+        found = canvas.nearest(lines.places, touch, GRAB_LINE)
+        return int(lines.furrow[found]) if found is not None else None
+
+    def _draw_proposals(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, touch: Touch | None) -> None:
+        """Dashed and in a colour of their own: they are not there yet."""
+        if not self.proposals.furrows:
+            return
+        lines = furrow_lines(canvas.faces, tuple(furrow.controls for furrow in self.proposals.furrows))
+        points, seen = canvas.on_screen(lines.places), canvas.seen(lines.places)
+        pointed = self._nearest_proposal(canvas, touch) if touch is not None and self._hold is None else None
+        for number in range(len(self.proposals.furrows)):
+            line, shown = lines.line(number), number in (pointed, self.proposals.chosen)
+            width = (2.4 if shown else 1.6) * canvas.scale
+            draw_dashes(drawing, points[line], seen[line], theme.packed(PROPOSED, 1.0 if shown else 0.85), width)
 
     def _draw_handles(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, furrow: Furrow, touch: Touch | None) -> None:
         places, which = handle_places(canvas.faces, furrow.controls)

@@ -17,6 +17,7 @@ from .. import theme
 from ..picking import View
 from .face_places import FacePlaces
 
+DASH = 4.0  # length of a dash and of the gap after it, in widths of the line
 AWAY = -1e4  # where points behind the camera are put
 
 
@@ -112,6 +113,23 @@ def draw_line(
         run = as_points(points[start:end])
         if edge:
             drawing.add_polyline(run, theme.packed(theme.GROUND, 0.55), width + 2 * edge, 0)
+        drawing.add_polyline(run, colour, width, 0)
+
+
+def draw_dashes(drawing: imgui.ImDrawList, points: Floats, seen: NDArray[np.bool_], colour: int, width: float) -> None:
+    """A line in the window, (k, 2), as far as it is seen, in dashes a few widths long over a dark rim."""
+    if len(points) < 2:
+        return
+    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    arc = np.concatenate([[0.0], np.cumsum(lengths)])
+    dash = DASH * width
+    for start in np.arange(0.0, arc[-1], 2 * dash):
+        ends = np.array([start, min(start + dash, arc[-1])])
+        at = np.sort(np.concatenate([ends, arc[(arc > ends[0]) & (arc < ends[1])]]))
+        if not seen[np.clip(np.searchsorted(arc, at), 0, len(seen) - 1)].all():
+            continue
+        run = as_points(np.stack([np.interp(at, arc, points[:, k]) for k in range(2)], axis=1))
+        drawing.add_polyline(run, theme.packed(theme.GROUND, 0.6), 2.2 * width, 0)
         drawing.add_polyline(run, colour, width, 0)
 
 

@@ -34,10 +34,10 @@ class WrinkleSteps:
 
     def __init__(self, rows: ParameterRows, viewport: Viewport, tools: Sequence[Tool]) -> None:
         self.rows = rows
-        (furrows,) = (tool.set for tool in tools if isinstance(tool, FurrowTool))
+        (tool,) = (tool for tool in tools if isinstance(tool, FurrowTool))
         self._sections: tuple[tuple[str, bool, Callable[[Ui], None]], ...] = (
             ("Expression", True, ExpressionPanel(rows).draw),
-            ("Furrows", True, FurrowPanel(rows, furrows).draw),
+            ("Furrows", True, FurrowPanel(rows, tool.set, tool.proposals).draw),
             ("Fine wrinkles", False, lambda ui: rows.rows(ui, "fine", FINE)),
             ("Tissue", False, lambda ui: rows.rows(ui, "face", ("tissue", "tissue_lift"))),
         )
