@@ -1,12 +1,16 @@
 """Tools of the editor of wrinkles: furrows, directions and paint, on the head and in texture space."""
 
+import threading
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from imgui_bundle import imgui
 
+from headstudio.app.wrinkles import proposals
 from headstudio.app.wrinkles.face_places import places_of
+from headstudio.wrinkle.face_settings import FaceSettings
+from headstudio.wrinkle.furrow import Furrow
 
 from .wrinkle_scenes import FURROWS, draw_stroke, furrows_of, head_canvas, on_screen, texture_canvas, tool
 
@@ -225,3 +229,80 @@ def test_texture_space_zooms_at_the_mouse_pans_and_closes(face):
     face.key(imgui.Key.m)
     face.frames()
     assert not face.shown("Texture")
+
+
+@pytest.fixture
+def proposed(face, monkeypatch):
+    """Two furrows that the program proposes, without the minute that it takes to find some."""
+    controls = (((0.02, -0.03), (0.025, -0.034), (0.03, -0.038), (0.034, -0.042)),)
+    controls += (tuple((-x, y + 0.012) for x, y in controls[0]),)
+    found = tuple(Furrow(f"proposal {k}", "inferred", controls=line) for k, line in enumerate(controls, 1))
+
+    def propose(posing, layout, expressions):
+        for _ in expressions.values():
+            posing.pose(FaceSettings(smile=0.5))
+        return found
+
+    monkeypatch.setattr(proposals, "propose_furrows", propose)
+    face.click("Proposals/Propose from expressions")
+    face.until(lambda: face.studio.document.wrinkle.proposals)
+    face.frames()
+    return found
+
+
+def test_proposals_are_accepted_rejected_and_taken_back(face, proposed):
+    studio = face.studio
+    grown = studio.grown
+    assert studio.document.wrinkle.proposals == proposed
+    assert studio.work.history.undo_label == "Propose furrows"
+    face.frames(3)
+    assert studio.grown is grown, "what is only proposed changes nothing on the skin"
+    face.click_at(on_screen(head_canvas(face), proposed[0].chain.at(0.5))[0])
+    assert studio.document.wrinkle.proposals == proposed, "a click looks at it"
+    face.click("Proposals/Accept")
+    assert studio.document.wrinkle.proposals == proposed[1:]
+    assert furrows_of(face) == (*FURROWS, proposed[0])
+    assert tool(face, "Furrows").set.chosen == len(FURROWS)
+    studio.undo()
+    assert studio.document.wrinkle.proposals == proposed
+    face.frames()
+    face.click("Proposals/Accept all")
+    assert furrows_of(face) == (*FURROWS, *proposed)
+    studio.undo()
+    face.frames()
+    face.click_at(on_screen(head_canvas(face), proposed[1].chain.at(0.5))[0])
+    face.click("Proposals/Reject")
+    assert studio.document.wrinkle.proposals == proposed[:1]
+    face.click("Proposals/Reject all")
+    assert studio.document.wrinkle.proposals == ()
+    assert furrows_of(face) == FURROWS
+
+
+def test_a_proposal_that_is_dragged_is_a_furrow_there(face, proposed):
+    canvas = head_canvas(face)
+    face.drag(*on_screen(canvas, proposed[0].chain.at(0.5), np.add(proposed[0].chain.at(0.5), [0.003, 0.0])))
+    moved = furrows_of(face)[-1]
+    np.testing.assert_allclose(np.array(moved.controls) - proposed[0].controls, [[0.003, 0.0]] * 4, atol=1.5e-3)
+    assert face.studio.document.wrinkle.proposals == proposed[1:]
+    assert face.studio.work.history.undo_label == "Move proposal"
+    face.studio.undo()
+    assert face.studio.document.wrinkle.proposals == proposed
+    assert furrows_of(face) == FURROWS
+
+
+def test_a_search_for_proposals_can_be_cancelled(face, monkeypatch):
+    going = threading.Event()
+
+    def propose(posing, layout, expressions):
+        for _ in expressions.values():
+            going.wait(10.0)
+        return FURROWS
+
+    monkeypatch.setattr(proposals, "propose_furrows", propose)
+    face.click("Proposals/Propose from expressions")
+    face.frames(2)
+    face.click("Proposals/Cancel")
+    going.set()
+    face.frames(20)
+    assert face.studio.document.wrinkle.proposals == ()
+    assert face.shown("Proposals/Propose from expressions")
