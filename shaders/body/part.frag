@@ -11,12 +11,13 @@ uniform vec3 hair_colour;
 in vec3 v_place;
 in vec3 v_rest;
 in vec3 v_normal;
-in vec2 v_paint;
+in vec3 v_paint;
 out vec4 colour;
 
 // Of the ball's radius.
 const float iris_radius = 0.45;
 const float pupil_radius = 0.15;
+const float teeth_in_row = 14.0;
 
 float noise(float x) {
     float i = floor(x), f = fract(x);
@@ -56,9 +57,13 @@ void main() {
         gloss = 900.0;
         strength = 9.0;
     } else if (kind == 1) {
-        albedo = vec3(0.72, 0.66, 0.57);
+        // Single teeth: narrow ones in front, molars behind, a dark line between two and round sides.
+        float tooth = teeth_in_row * (0.5 + 0.5 * sin(1.35 * (v_paint.y - 0.5)) / sin(0.675));
+        float beside = abs(fract(tooth) - 0.5) * 2.0;
+        albedo = vec3(0.70, 0.64, 0.54) * (1.0 - 0.5 * smoothstep(0.86, 1.0, beside));
+        albedo = mix(albedo, skin_colour * vec3(0.85, 0.38, 0.38), v_paint.z);
         gloss = 120.0;
-        strength = 0.6;
+        strength = 0.5 * (1.0 - beside * beside);
     } else if (kind == 2) {
         albedo = skin_colour * vec3(0.85, 0.35, 0.35);
         gloss = 60.0;

@@ -246,13 +246,13 @@ def test_units_are_another_driver_where_the_head_has_them(faces):
 @pytest.mark.parametrize("name", HEADS)
 def test_tissue_lifts_cheeks_in_a_smile(faces, thick, name):
     face = faces[name]
-    flat, lifted = show(face, None, smile=1.0).positions, show(face, thick[name], smile=1.0).positions
+    flat, lifted = (show(face, tissue, smile=1.0, driver="muscles").positions for tissue in (None, thick[name]))
     cheek = carried_face_points(face.head.landmarks, [(-3.0, 0.4, 7.0)])[0]
     near = cKDTree(face.head.skin.vertices).query(cheek, k=8)[1].ravel()
     outward = np.einsum("ij,ij->i", (lifted - flat)[near], face.head.skin.vertex_normals[near])
     assert outward.mean() > 5e-4
     assert np.linalg.norm(lifted - flat, axis=1).max() < 0.01
-    half = show(face, thick[name], smile=1.0, tissue_lift=0.0).positions
+    half = show(face, thick[name], smile=1.0, tissue_lift=0.0, driver="muscles").positions
     np.testing.assert_array_equal(half, flat)
 
 
@@ -284,3 +284,14 @@ def test_a_posed_head_has_the_skin_and_parts_of_the_pose(faces):
     np.testing.assert_array_equal(head.skin.vertices, pose.positions)
     assert head.parts == pose.parts
     assert replace(head, skin=face.head.skin, parts=face.head.parts).landmarks is face.head.landmarks
+
+
+def test_lids_that_cannot_close_say_why(faces):
+    face = faces["mannequin"]
+    blink, smiling_left = (assign(FaceSettings(), asked) for asked in ({"blink": 1.0}, {"smile_left": 1.0}))
+    assert face.why_lids_stay(blink) is None
+    blind = Face(replace(face.head, parts=tuple(part for part in face.head.parts if part.kind != "eye")))
+    assert blind.why_lids_stay(FaceSettings()) is None
+    assert "both eyes" in blind.why_lids_stay(blink)
+    assert "no eyeball" in blind.why_lids_stay(blink)
+    assert "the left eye" in blind.why_lids_stay(smiling_left)

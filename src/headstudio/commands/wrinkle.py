@@ -18,10 +18,12 @@ from ..wrinkle.expressions import FACES
 from ..wrinkle.face_settings import SLIDERS
 from .documents import animate
 from .pictures import Photographer, Size, save_picture
-from .reporting import say, working
+from .reporting import say, warn, working
 
-# Room for the face in the picture, in heights of the head.
-_ROOM = 1.35
+# Room for the face in the picture, from hairline to chin.
+_ROOM = 1.2
+# The middle of the picture lies so far from the front of the face to the ears.
+_BEHIND = 0.3
 
 
 def face_settings(preset: str | None, expressions: Sequence[str]) -> dict[str, Any]:
@@ -50,10 +52,10 @@ def with_face(document: Document, preset: str | None, expressions: Sequence[str]
 def close_up(document: Document, head: Head) -> Document:
     """The document with its camera on the face, from the side it looks from."""
     marks = head.landmarks
-    # Midway between face and ears: from the side, too, the head is in the middle of the picture.
+    # The face fills the picture from chin to hairline; from the side, too, it is what stands in the middle.
     front, ears = 0.5 * (marks.hairline + marks.chin), 0.5 * (marks.left_tragus + marks.right_tragus)
-    x, y, z = 0.5 * (front + ears)
-    height = float(np.linalg.norm(marks.crown - marks.chin))
+    x, y, z = front + _BEHIND * (ears - front) * [1.0, 0.0, 1.0]
+    height = float(np.linalg.norm(marks.hairline - marks.chin))
     distance = 0.5 * _ROOM * height / math.tan(0.5 * document.camera.field_of_view)
     return assign(
         document,
@@ -70,6 +72,9 @@ def wrinkle(document: Document, out: Path, size: Size, framed: bool) -> None:
     if suffix != ".png" and suffix not in MESH_SUFFIXES:
         raise ParameterError(f"a face is written to .png, {', '.join(MESH_SUFFIXES)}; got {out.name!r}")
     stage = animate(document).stage()
+    why = stage.skin.face.why_lids_stay(document.face) if stage.skin is not None else None
+    if why is not None:
+        warn(why)
     if suffix == ".png":
         document = close_up(document, stage.head) if framed else document
         save_picture(Photographer(size).final(stage, document, size), out)

@@ -46,6 +46,11 @@ _KEPT_BELOW_SKULL = 0.4
 # Subdivision rounds the lips off and opens them by a millimetre: the jaw closes that much, in units of "mouth-open".
 _LIPS_TOGETHER = -0.08
 
+# The rows of teeth would meet above the line of the lips, so that a parted mouth showed none, and the tongue would fill it
+# to the palate: how far they are moved [m].
+_TEETH_MEET = np.array([0.0, -0.006, 0.0])
+_TONGUE_LIES = np.array([0.0, -0.011, -0.004])
+
 # It also draws the lids a little inward, and the eyeballs follow.
 _EYE_SHRINK = 0.98
 
@@ -76,7 +81,7 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
     landmarks = _landmarks(body, carry, eyes)
     skin, cut = cut_bust(body, landmarks)
     carry = cut @ carry
-    mouth = tuple(Part(kind, _smooth(base, vertices, group).triangulated()) for group, kind in _MOUTH)
+    mouth = tuple(_mouth_part(kind, _smooth(base, vertices, group).triangulated()) for group, kind in _MOUTH)
     return Head(
         name="makehuman",
         skin=skin,
@@ -118,6 +123,10 @@ def _smooth(base: BaseMesh, vertices: Floats, group: str) -> QuadMesh:
     """One group of helpers, subdivided."""
     quads, _ = base.quads(group, vertices).selected()
     return catmull_clark(quads)[0]
+
+
+def _mouth_part(kind: str, mesh: TriangleMesh) -> Part:
+    return Part(kind, mesh.moved(mesh.vertices + (_TONGUE_LIES if kind == "tongue" else _TEETH_MEET)))
 
 
 def _lashes(base: BaseMesh, vertices: Floats) -> tuple[Part, ...]:

@@ -13,7 +13,7 @@ from ..scene.settings import Look
 from .buffers import bytes_of, floats_of, indices_of
 from .context import set_uniforms
 from .scene_block import linear
-from .skin_paint import standing_out
+from .skin_paint import dental_arch, gums, mouth_light, standing_out
 from .sky import hidden_from_sky
 
 # How part.frag tells the parts apart.
@@ -27,7 +27,10 @@ def hidden_of_head(context: moderngl.Context, head: Head) -> tuple[Floats, list[
     normals = np.concatenate([mesh.vertex_normals for mesh in meshes])
     hidden = hidden_from_sky(context, head.skin, points, normals)
     skin, *parts = np.split(hidden, np.cumsum([len(mesh.vertices) for mesh in meshes])[:-1])
-    return skin, parts
+    # Behind lips at rest all would be dark; what shows of a mouth shows because it is open.
+    return skin, [
+        mouth_light(part) if part.kind in ("teeth", "tongue") else own for part, own in zip(head.parts, parts)
+    ]
 
 
 class BodyParts:
@@ -45,7 +48,7 @@ class BodyParts:
                 program,
                 [
                     (surface, "3f 3f", "position", "normal"),
-                    (context.buffer(bytes_of(np.column_stack([dark, standing_out(head, part)]))), "2f1", "paint"),
+                    (context.buffer(bytes_of(np.column_stack([dark, _detail(head, part)]))), "4f1", "paint"),
                 ],
                 context.buffer(indices_of(part.mesh.faces)),
             )
@@ -82,6 +85,17 @@ class BodyParts:
             kind = "other"
         set_uniforms(self._program, kind=_KINDS[kind])
         array.render()
+
+
+def _detail(head: Head, part: Part) -> Floats:
+    """What else the shader must know of a part, 0 to 1, (n, 3): where a vertex is along a row of teeth, or along a hair;
+    how far it is gum; and nothing."""
+    none = np.zeros(len(part.mesh.vertices))
+    if part.kind != "teeth":
+        return np.column_stack([standing_out(head, part), none, none])
+    level = np.mean([each.mesh.vertices[:, 1].mean() for each in head.parts if each.kind == "teeth"])
+    upper = bool(part.mesh.vertices[:, 1].mean() > level)
+    return np.column_stack([dental_arch(part.mesh), gums(part.mesh, upper), none])
 
 
 def _surface(part: Part) -> Floats:

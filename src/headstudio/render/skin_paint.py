@@ -12,6 +12,8 @@ from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..lcp.model import HairModel
 
+# From the edge of a tooth to where its gum begins [m].
+_CROWN = (0.0085, 0.0105)
 # Skin nearer than this to a root [m] is covered, and bare beyond the second.
 _SCALP_REACH = (0.006, 0.016)
 
@@ -50,6 +52,28 @@ def standing_out(head: Head, part: Part) -> Floats:
     return distance / max(distance.max(), 1e-9)
 
 
+def dental_arch(teeth: TriangleMesh) -> Floats:
+    """How far around the arch every vertex of a row of teeth lies, from 0 at its right end to 1 at its left, (n,)."""
+    low, high = teeth.bounds
+    # The arch is close to a half ellipse that opens backward.
+    across = (teeth.vertices[:, 0] - 0.5 * (low[0] + high[0])) / (0.5 * (high[0] - low[0]))
+    ahead = (teeth.vertices[:, 2] - low[2]) / (high[2] - low[2])
+    return np.clip(0.5 + np.arctan2(across, ahead) / np.pi, 0.0, 1.0)
+
+
+def gums(teeth: TriangleMesh, upper: bool) -> Floats:
+    """Where a row of teeth is gum and no longer tooth, 0 to 1, (n,)."""
+    height = teeth.vertices[:, 1]
+    beyond = height - height.min() if upper else height.max() - height
+    return _smoothstep(*_CROWN, beyond)
+
+
+def mouth_light(part: Part) -> Floats:
+    """How much of the sky a part of the mouth never sees, however far it opens: more from front to back, (n,)."""
+    low, high = part.mesh.bounds[:, 2]
+    return 0.3 + 0.65 * (high - part.mesh.vertices[:, 2]) / max(high - low, 1e-9)
+
+
 def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
     """How densely hair roots stand on the skin, 0 to 1, (n,): the ground that hair grows from is never bare skin."""
     if hair is None or hair.count == 0:
@@ -83,10 +107,12 @@ def _lips(points: Floats, marks: Landmarks) -> Floats:
     arch = np.sqrt(np.clip(1 - across**2, 0, 1))
     height = height - _mouth_line(across, height, depth) * np.clip(1 - across**2, 0, 1)
     bow = 1 - 0.20 * np.exp(-((across / 0.16) ** 2))
-    upper, lower = 0.34 * arch * bow, 0.44 * arch
+    # The red reaches a little around the corners, where an open mouth shows what lay between the lips.
+    corner = 0.07 * (1 - _smoothstep(1.0, 1.12, np.abs(across)))
+    upper, lower = np.maximum(0.34 * arch * bow, corner), np.maximum(0.44 * arch, corner)
     inside = np.where(height > 0, height / np.maximum(upper, 1e-6), -height / np.maximum(lower, 1e-6))
     front = _smoothstep(-1.7, -0.7, depth)
-    return (1 - _smoothstep(0.75, 1.15, inside)) * front * (np.abs(across) < 1)
+    return (1 - _smoothstep(0.75, 1.15, inside)) * front * (np.abs(across) < 1.12)
 
 
 def _mouth_line(across: Floats, height: Floats, depth: Floats) -> float:

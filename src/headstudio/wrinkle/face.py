@@ -68,6 +68,26 @@ class Face:
         """Whether the head brings MakeHuman's expression units."""
         return bool(self.head.expressions)
 
+    def why_lids_stay(self, settings: FaceSettings) -> str | None:
+        """Why lids do not do what ``settings`` ask of them, a line for the user; None where they do, or need not."""
+        asked = {
+            side
+            for side in SIDES
+            for name, expression in _SHOWN.items()
+            if settings.strength(name, side) > 0
+            and (expression.upper_lid or expression.lower_lid or expression.gaze_down)
+        }
+        still = sorted(asked - set(self._lids))
+        if not still:
+            return None
+        which = "both eyes" if len(still) == 2 else f"the {still[0]} eye"
+        balls = {_side_of(part) for part in self.head.parts if part.kind == "eye" and part.centre is not None}
+        if not balls.issuperset(still):
+            return (
+                f"lids of {which} do not move: this head has no eyeball behind them, apart from its skin, to slide over"
+            )
+        return f"lids of {which} do not move: the skin leaves no opening before the eyeball"
+
     def pose(self, settings: FaceSettings, thickness: Floats | None = None) -> FacePose:
         """The face as ``settings`` sets its sliders; a performance is not looked at, see ``FaceSettings.at``.
 

@@ -35,7 +35,7 @@ class FaceSettings:
     """
 
     driver: str = choice(
-        "muscles",
+        "both",
         "Driver",
         DRIVERS,
         "What moves the skin: muscles, MakeHuman's expression units, or half of each. A head without units has muscles.",

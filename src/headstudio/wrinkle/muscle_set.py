@@ -83,8 +83,10 @@ _ADDED: dict[str, _Entry] = {
     "orbicularis oris": _Sphincter((0.0, -2.3, 8.2), 2.6, 2.0, 2.0, (1.0, 0.35), 0.5),
     "depressor supercilii": _Linear((-1.7, 3.9, 7.9), (-0.8, 2.3, 7.5), 0.4, 3.0, 60),
     "procerus": _Linear((-0.35, 3.8, 8.1), (-0.2, 1.9, 8.2), 0.3, 3.0, 45),
-    "levator anguli oris": _Linear((-1.570, -2.221, 7.820), (-2.3, 0.9, 7.3), 0.1, 5.0, 45),
-    "risorius": _Linear((-1.570, -2.221, 7.85), (-4.2, -1.5, 4.4), 0.1, 4.9, 40),
+    # With its pull all along, the cheek would move farther than the corner of the mouth, and bulge; the printed zygomatic
+    # major does. These shorten evenly from bone to lip, so that a smile is drawn by its corners.
+    "zygomatic minor": _Linear((-1.570, -2.221, 7.820), (-3.1, 0.9, 6.85), 3.4, 5.2, 27),
+    "risorius": _Linear((-1.570, -2.221, 7.85), (-4.2, -1.5, 4.4), 4.2, 6.2, 30),
     "depressor labii": _Linear((-0.75, -2.9, 8.2), (-1.1, -4.5, 7.0), 0.1, 2.7, 45),
     "mentalis": _Linear((-0.3, -4.6, 7.5), (-0.25, -2.9, 7.8), 0.2, 2.6, 50),
 }
