@@ -14,6 +14,7 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.stage import Stage
 from ..wisp.hairdo import Hairdo, style_hair
+from .memory import peak_memory
 
 SIZE = (512, 512)
 FINAL_SIZE = (1024, 1024)
@@ -29,7 +30,8 @@ class HairstyleCost:
 
     stages: of making it, by name. style_ms: making all of it, head and scalp being there. preview_ms: making the first
     20,000 strands. show_ms: a picture of 512 x 512 at the detail of the window, light in the hair included. final_ms: a
-    picture of 1024 x 1024 in final quality with every strand.
+    picture of 1024 x 1024 in final quality with every strand. memory_bytes: the most that a process had that made head and
+    strands and nothing else; None where the system does not tell.
     """
 
     strands: int
@@ -39,6 +41,7 @@ class HairstyleCost:
     preview_ms: float
     show_ms: float
     final_ms: float
+    memory_bytes: int | None
 
 
 def hairstyle_cost(
@@ -46,6 +49,7 @@ def hairstyle_cost(
 ) -> HairstyleCost:
     """Style ``strands`` strands and draw them; ``tick`` is called REPEATS + 2 times."""
     document = assign(document, {"wisp.strands": strands, "look.hair_as": "strands"})
+    memory = peak_memory(document)
     costs, stages = [], []
     for _ in range(REPEATS):
         spent, total, hairdo = _styled(document, builder, None)
@@ -66,6 +70,7 @@ def hairstyle_cost(
         preview_ms=preview,
         show_ms=show,
         final_ms=final,
+        memory_bytes=memory[1] if memory else None,
     )
 
 

@@ -17,6 +17,7 @@ from ..bench.animation import (
     animation_cost,
     frames_to_draw,
 )
+from ..bench.changes import change_costs
 from ..bench.face import PAPER_CARVING_S, CarvingCost, FaceCost, carving_cost, face_cost
 from ..bench.face import PAPER_FPS as PAPER_FACE_FPS
 from ..bench.face import WARM_UP as FACE_WARM_UP
@@ -74,7 +75,11 @@ def bench(document: Document, subjects: tuple[str, ...], amounts: Amounts, out: 
             report |= _animations(costs)
         if "hairstyle" in subjects:
             styles = [hairstyle_cost(document, count, builder, renderer, tick) for count in amounts.strands]
+            changes = change_costs(document, builder, renderer)
             report["hairstyles"] = [asdict(cost) for cost in styles]
+            report["changes"] = {
+                name: {"build_ms": built, "draw_ms": drawn} for name, (built, drawn) in changes.items()
+            }
         if "face" in subjects:
             face = face_cost(document, frames, builder, renderer, tick)
             carvings = [carving_cost(document, texels, builder) for texels in amounts.texels]
@@ -84,6 +89,7 @@ def bench(document: Document, subjects: tuple[str, ...], amounts: Amounts, out: 
         results.print(_table(costs), soft_wrap=False)
     if "hairstyle" in subjects:
         results.print(_hairstyle_table(styles), soft_wrap=False)
+        results.print(_changes_table(changes), soft_wrap=False)
     if "face" in subjects:
         results.print(_face_table(face, carvings), soft_wrap=False)
     if out is not None:
@@ -116,6 +122,19 @@ def _hairstyle_table(costs: list[HairstyleCost]) -> Table:
     table.add_row("the first 20,000", *(f"{cost.preview_ms:.0f}" for cost in costs), f"{1e3 * PAPER_PREVIEW_S:.0f}")
     table.add_row("first picture, 512 x 512", *(f"{cost.show_ms:.0f}" for cost in costs), "")
     table.add_row("final, 1024 x 1024", *(f"{cost.final_ms:.0f}" for cost in costs), f"{1e3 * PAPER_PICTURE_S:.0f}")
+    table.add_section()
+    known = [cost.memory_bytes for cost in costs]
+    table.add_row("memory of head and strands, MB", *("?" if n is None else f"{n / 1e6:.0f}" for n in known), "")
+    return table
+
+
+def _changes_table(changes: dict[str, tuple[float, float]]) -> Table:
+    """A row for each kind of change, milliseconds."""
+    table = Table("from a change to its picture, ms", "build", "draw", "in all")
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for name, (built, drawn) in changes.items():
+        table.add_row(name, f"{built:.0f}", f"{drawn:.0f}", f"{built + drawn:.0f}")
     return table
 
 

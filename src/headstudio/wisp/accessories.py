@@ -6,14 +6,17 @@ from dataclasses import dataclass
 from functools import singledispatch
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 from ..head.mesh import Floats, TriangleMesh
 from ..params import colour, number
 from .joints import unit
 from .operations import Place
-from .paths import along_skin, off_skin, outward
+from .paths import STEP, along_skin, at_height, off_skin, outward, sideways
 from .surroundings import Surroundings
 from .sweep import closed_tube, joined, ribbon_strip, tube
+
+_BAND_BOW = 0.015  # over which a band is smooth [m]
 
 
 @dataclass(frozen=True)
@@ -73,8 +76,10 @@ def _band(band: Band, surroundings: Surroundings) -> TriangleMesh:
     # A half circle around the skull from ear to ear that leans forward as it rises.
     rise = np.cos(angle)
     places = np.stack([1.05 * np.sin(angle), 1.1 * rise - 0.25 * (1 - rise), band.lean * rise], axis=1)
-    path = along_skin(surroundings, places, band.lift)
-    away = outward(surroundings, path)
+    path = at_height(surroundings, along_skin(surroundings, places, band.lift), band.lift)
+    # A band is stiff: it goes in one bow over what lies under it.
+    path = gaussian_filter1d(path, _BAND_BOW / STEP, axis=0, mode="nearest")
+    _, away = sideways(surroundings, off_skin(surroundings, path, 0.8 * band.lift))
     return ribbon_strip(path, away, np.full(len(path), band.width), 0.0025)
 
 

@@ -10,12 +10,21 @@ from ..head.scalp_curves import catmull_rom
 from .joints import unit
 from .surroundings import Surroundings
 
+_APPROACHES = 5
 STEP = 0.005  # between the points of a path [m]
 
 
 def off_skin(surroundings: Surroundings, points: Floats, clearance: float) -> Floats:
     """Points [m], (k, 3), moved out to ``clearance`` [m] off the skin where they are nearer."""
     return surroundings.keep_outside(points.astype(np.float32), clearance).astype(np.float64)
+
+
+def at_height(surroundings: Surroundings, points: Floats, height: float) -> Floats:
+    """Points [m], (k, 3), moved straight to or from the skin until they are ``height`` [m] off it."""
+    for _ in range(_APPROACHES):
+        distance, away = surroundings.distance_and_gradient(points)
+        points = points + (height - distance)[:, None] * away
+    return off_skin(surroundings, points, height)
 
 
 def outward(surroundings: Surroundings, points: Floats) -> Floats:
