@@ -13,6 +13,8 @@ out vec4 colour;
 
 const float pi = 3.14159265;
 const float roughness = 0.5;  // as felt; its square is the width of the distribution
+// Of the soft light outside, what comes through an opening of the body to its inside.
+const float within = 0.3;
 const float mirrored = 0.04;  // at normal incidence, index of refraction 1.5
 
 float smith(float cosine) {
@@ -29,7 +31,11 @@ float coat(float n_v) {
 
 void main() {
     vec3 n = normalize(v_normal), to_eye = normalize(eye.xyz - v_place), l = to_light.xyz;
-    if (dot(n, to_eye) < 0.0) n = -n;
+    vec3 soft = v_soft;
+    if (dot(n, to_eye) < 0.0) {
+        n = -n;
+        soft *= within;
+    }
     float n_l = max(dot(n, l), 0.0), n_v = max(dot(n, to_eye), 1e-3);
     vec3 h = normalize(l + to_eye);
     float n_h = max(dot(n, h), 0.0), a2 = roughness * roughness * roughness * roughness;
@@ -41,5 +47,5 @@ void main() {
     float lit = n_l > 0.0 ? past_objects_at(light_box(v_place + (n + l) * 0.0015), 0.001) : 0.0;
     vec3 sun = pi * radiance.rgb * n_l * lit * exp(-lost * hair_crossed(at));
     float sheen = coat(n_v);
-    colour = vec4(sun * (diffuse / pi * (1.0 - sheen) + shine) + v_soft / pi * (diffuse * (1.0 - sheen) + sheen), 1.0);
+    colour = vec4(sun * (diffuse / pi * (1.0 - sheen) + shine) + soft / pi * (diffuse * (1.0 - sheen) + sheen), 1.0);
 }
