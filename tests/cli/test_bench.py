@@ -36,11 +36,14 @@ def test_hairstyles_stage_by_stage(headstudio, monkeypatch):
     assert ran.status == 0
     for word in ("wisps", "flow", "colour", "settings to strands", "final, 1024 x 1024", "1800000"):
         assert word in ran.output
-    costs = json.loads(Path("bench.json").read_text())["hairstyles"]
+    report = json.loads(Path("bench.json").read_text())
+    costs = report["hairstyles"]
+    assert {"colour", "fuzziness", "stroke on the length map", "tie moved", "preset chosen"} <= report["changes"].keys()
     assert [cost["strands"] for cost in costs] == [300, 600]
     for cost in costs:
         assert sum(cost["stages"].values()) == pytest.approx(cost["style_ms"], rel=0.5)
         assert cost["final_ms"] > 0
+        assert cost["memory_bytes"] is None or 5e7 < cost["memory_bytes"] < 2e9
 
 
 def test_a_face_and_its_carving(headstudio, monkeypatch):
