@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
 
 from headstudio.head.mannequin import mannequin
 from headstudio.head.mesh import TriangleMesh
+from headstudio.head.repair import repair
 from headstudio.wrinkle.alignment import ScanError, align, moved, plausible_units
 from headstudio.wrinkle.comparison import Distances, compare
 from headstudio.wrinkle.creases import Creases
@@ -218,6 +220,20 @@ def test_a_scan_of_something_else_is_refused():
     base = cap(bumps=0.08)
     with pytest.raises(ScanError, match="does not lie on this head"):
         align(lifted(base, 0.5), base, [np.eye(4)])
+
+
+def test_scans_that_cannot_be_of_this_head_are_refused_and_those_that_can_are_laid_on_it():
+    head = mannequin()
+    scan = strange_scan(head, Strange(5, place="face", radius=0.05, crossing=True, spacing=2.5e-3))
+    for good in (scan, scan.moved(scan.vertices / 0.0254), TriangleMesh(scan.vertices, scan.faces[:, ::-1])):
+        mesh, _ = repair(good)
+        assert align(mesh, head.skin, plausible_units(mesh)).distance < 1e-3
+    turned_away = scan.vertices @ Rotation.from_euler("y", 60, degrees=True).as_matrix()
+    plane = sheet(size=0.1)
+    upright = plane.moved(plane.vertices - [0.05, 0.0, 0.0])
+    for bad in (scan.moved(turned_away), scan.moved(1.15 * scan.vertices), scan.moved(3.7 * scan.vertices), upright):
+        with pytest.raises(ScanError, match="does not lie on this head"):
+            align(bad, head.skin, plausible_units(bad))
 
 
 def test_distances_between_parallel_sheets_are_their_distance():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,8 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..wrinkle.alignment import Alignment, align, moved, plausible_units
 from ..wrinkle.comparison import Comparison, Distances, around, compare
+from ..wrinkle.default_furrows import default_furrows
+from ..wrinkle.face_chart import FaceChart
 from ..wrinkle.face_creases import face_layout
 from ..wrinkle.fitting import change_of_shape
 from ..wrinkle.scan_fit import fit_face
@@ -29,6 +32,8 @@ from .reporting import counting, results, say, working
 
 # Where the scan departs from the smooth skin by more than this [m], it is wrinkled.
 _WRINKLED = 5e-4
+# Parts of the face that are reported by themselves.
+_REGIONS = ("forehead", "eye corner")
 _MM = 1e3
 
 
@@ -92,7 +97,25 @@ def measure(document: Document, scan: TriangleMesh, builder: Builder, laid: Floa
             Distances.of((both[0] - smooth[0])[close[0]]),
             Distances.of((both[1] - smooth[1])[close[1]]),
         )
+    for region, line in _region_lines(builder.head(document.head)).items():
+        here = [_at_both(mesh, at, each, partial(around, wrinkled=line)) for mesh, at, each in states]
+        if all(mask.any() for mask in here):
+            rows[f"{region}, smooth change of shape removed"] = (
+                Distances.of((both[0] - smooth[0])[here[0]]),
+                Distances.of((both[1] - smooth[1])[here[1]]),
+            )
     return Report(rows, float(np.sqrt(np.mean(shape[heights.covered] ** 2))))
+
+
+def _region_lines(head: Head) -> dict[str, Floats]:
+    """Points of the skin [m], (k, 3), along which a forehead and eye corners wrinkle."""
+    chart = FaceChart(head, face_layout(head))
+    lines = {}
+    for region in _REGIONS:
+        samples = [furrow.chain.sampled(40)[1] for furrow in default_furrows(1.0) if furrow.region == region]
+        points = chart.on_skin(np.concatenate(samples))
+        lines[region] = points[np.isfinite(points[:, 0])]
+    return lines
 
 
 def fitted(document: Document, scan: TriangleMesh, builder: Builder) -> tuple[Document, Floats, str]:
