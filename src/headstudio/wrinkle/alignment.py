@@ -55,24 +55,33 @@ def align(scan: TriangleMesh, base: TriangleMesh, starts: Sequence[Floats]) -> A
     tried = [_settled(few, target, base, start) for start in starts]
     if not tried:
         raise ScanError("the scan has no size that a head could have")
-    best = min(tried, key=lambda each: each.distance)
+    # A scan taken for much smaller than it is can lie nearer than the right one, but not like skin.
+    best = max(tried, key=lambda each: _likeness(few, each.matrix, target, base)[1])
     best = _settled(many, target, base, best.matrix)
     for start in starts:
         unmoved = _distance(_moved(many[0], start), target)
         if unmoved < (1.0 + _WORTH) * best.distance:
             best = Alignment(start, unmoved)
-    found, away = target.nearest(_moved(many[0], best.matrix))
-    normals = _unit(many[1] @ best.matrix[:3, :3].T)
-    skin = _unit(found.blend(base.vertex_normals, base.faces))
-    # Loose points, which belong to no triangle, face nowhere.
-    near = (away < _NEAR) & normals.any(axis=1)
-    same = (away < _FITS) & (np.einsum("kd,kd->k", skin, normals) > _ALIKE)
-    if near.mean() < _SHARE or same.sum() < _SAME * near.sum():
+    near, same = _likeness(many, best.matrix, target, base)
+    if near < _SHARE or same < _SAME * near:
         raise ScanError(
-            f"the scan does not lie on this head: {near.mean():.0%} of it come within {1e3 * _NEAR:.0f} mm, "
-            f"{same.mean():.0%} lie like its skin; give a scan of the same head, in its coordinates or near them"
+            f"the scan does not lie on this head: {near:.0%} of it come within {1e3 * _NEAR:.0f} mm, "
+            f"{same:.0%} lie like its skin; give a scan of the same head, in its coordinates or near them"
         )
     return best
+
+
+def _likeness(
+    samples: tuple[Floats, Floats], matrix: Floats, target: Locator, base: TriangleMesh
+) -> tuple[float, float]:
+    """The parts of the samples that lie near the base, and that lie on it and face as it does."""
+    normals = _unit(samples[1] @ matrix[:3, :3].T)
+    # Loose points, which belong to no triangle, face nowhere.
+    faces_somewhere = normals.any(axis=1)
+    found, away = target.nearest(_moved(samples[0], matrix))
+    skin = _unit(found.blend(base.vertex_normals, base.faces))
+    alike = (away < _FITS) & (np.einsum("kd,kd->k", skin, normals) > _ALIKE)
+    return float(((away < _NEAR) & faces_somewhere).mean()), float(alike.mean())
 
 
 def plausible_units(scan: TriangleMesh) -> list[Floats]:
