@@ -12,6 +12,7 @@ uniform vec3 lost;             // of light that meets a strand, the part that do
 uniform vec3 sky_above;
 uniform vec3 sky_below;
 uniform vec3 upward;           // in the head frame
+uniform vec3 body_mean;        // radiance of the body in the mean
 uniform float bias;            // [m]
 layout(location = 0) out vec4 red;
 layout(location = 1) out vec4 green;
@@ -46,26 +47,40 @@ vec4 body_by(int k, vec3 at) {
 void main() {
     vec3 place = texelFetch(receivers, ivec2(gl_FragCoord.xy), 0).xyz;
     red = green = blue = vec4(0.0);
-    float known = 0.0, margin = 0.5 * bias / body_sphere.w;
+    float known = 0.0, open = 0.0, hidden = 0.0;
+    vec4 hidden_basis = vec4(0.0);
+    float margin = 0.5 * bias / body_sphere.w;
     for (int k = 0; k < textureSize(directions, 0).y; ++k) {
         vec3 direction = texelFetch(directions, ivec2(2, k), 0).xyz;
         vec3 at = box_of(k, body_sphere, place);
+        vec4 basis = vec4(1.0, 3.0 * direction);
         vec3 light;
         if (body_by(k, at).a > at.z - margin) {
+            open += 1.0;
             light = mix(sky_below, sky_above, 0.5 + 0.5 * dot(direction, upward)) * exp(-lost * hair_crossed_by(k, place));
         } else {
             vec3 behind = box_of(k ^ 1, body_sphere, place);
             vec4 wall = body_by(k ^ 1, behind);
-            if (wall.a < behind.z - margin) continue;  // inside the body
+            if (wall.a < behind.z - margin) {  // in a hollow, or inside the body: no view shows what is there
+                hidden += 1.0;
+                hidden_basis += basis;
+                continue;
+            }
             vec3 there = place + direction * max((wall.a - behind.z) * 2.0 * body_sphere.w, 0.0);
             float crossed = hair_crossed_by(k ^ 1, there) - hair_crossed_by(k ^ 1, place);
             light = wall.rgb * exp(-lost * crossed);
         }
         known += 1.0;
-        vec4 basis = vec4(1.0, 3.0 * direction);
         red += light.r * basis;
         green += light.g * basis;
         blue += light.b * basis;
+    }
+    if (open > 0.0) {
+        // A place that sees some sky is in a hollow, whose walls send about as much light as the body does elsewhere.
+        red += body_mean.r * hidden_basis;
+        green += body_mean.g * hidden_basis;
+        blue += body_mean.b * hidden_basis;
+        known += hidden;
     }
     known = max(known, 1.0);
     red /= known;

@@ -68,6 +68,8 @@ class SkyLight:
         self._body.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._body_target = context.framebuffer([self._body], context.depth_texture((side, side)))
         self._corners = 3 * len(faces)
+        self._shares = vertex_shares(vertices, faces)
+        self._mean: Floats = np.zeros(3)
         self._radiance = context.buffer(reserve=max(12 * len(vertices), 4))
         self._surface = context.vertex_array(
             programs.body,
@@ -97,6 +99,7 @@ class SkyLight:
     def see_body(self, radiance: Floats) -> None:
         """Look at the body from everywhere; ``radiance`` of every vertex, linear RGB, (n, 3)."""
         self._radiance.write(radiance.astype("f4").tobytes())
+        self._mean = self._shares @ radiance
         target = self._body_target
         with self._context.scope(target, moderngl.DEPTH_TEST):
             target.clear(0.0, 0.0, 0.0, _FAR, depth=1.0)
@@ -117,8 +120,16 @@ class SkyLight:
             self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=_TILES,
             body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
             lost=tuple(lost), sky_above=tuple(sky.above),
-            sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS, **self._hair.bind(3),
+            sky_below=tuple(sky.below), upward=tuple(sky.upward), body_mean=tuple(self._mean), bias=_BIAS, **self._hair.bind(3),
         )  # fmt: skip
+
+
+def vertex_shares(vertices: Floats, faces: Ints) -> Floats:
+    """The part of the area of triangles that lies around each vertex, (n,); zeros without any."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    shares = np.bincount(faces.ravel(), np.repeat(areas, 3), minlength=len(vertices))
+    return shares / max(float(shares.sum()), 1e-12)
 
 
 def irradiance(light: Floats, normals: Floats) -> Floats:
