@@ -349,6 +349,7 @@ def limb(
         float, typer.Option(min=0, max=1, help="0 young, 1 old: shape, and depth of the joints' lines.")
     ] = 0.5,
     wrinkles: Annotated[bool, typer.Option("--wrinkles/--no-wrinkles", help="With its wrinkles, or smooth.")] = True,
+    near: Annotated[str | None, typer.Option(metavar="JOINT", help="From close by, such as 'middle proximal'.")] = None,
     out: Annotated[Path, typer.Option(help="The picture, a PNG.")] = Path("limb.png"),
     size: SizeOption = "512",
     view: ViewOption = None,
@@ -362,7 +363,7 @@ def limb(
     from .wrinkle.hand_settings import HandSettings
 
     document = choose_view(open_document(None, set_ or (), head_age=age), view)
-    limb(document, which, assign(HandSettings(), {"pose": pose}), wrinkles, parse_size(size), out)
+    limb(document, which, assign(HandSettings(), {"pose": pose}), wrinkles, parse_size(size), out, near)
 
 
 @command()

@@ -78,6 +78,7 @@ def test_limbs_with_and_without_wrinkles(headstudio):
         (("limb", "ear"), "a limb is hand, arm, foot"),
         (("limb", "--pose", "wave"), "pose"),
         (("limb", "no.glb"), "no.glb"),
+        (("limb", "foot", "--near", "wrist"), "no skeleton"),
     ],
 )
 def test_limbs_that_are_none(headstudio, words, complaint):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..head.head import HeadError
 from ..head.limbs import makehuman_foot, makehuman_hand
 from ..head.mesh import Floats, TriangleMesh
 from ..head.rig import BodyPart, is_hand
@@ -22,12 +23,17 @@ from .pictures import Photographer, Size, check_is_picture, save_picture
 from .reporting import say, warn, working
 
 LIMBS = ("hand", "arm", "foot")
-# Room for the limb in the picture, in lengths of its longest side.
+# Room for the limb in the picture, in lengths of its longest side; and for what is looked at from close by [m].
 _ROOM = 1.15
+_CLOSE = 0.042
 
 
-def limb(document: Document, which: str, hand: HandSettings, wrinkles: bool, size: Size, out: Path) -> None:
+def limb(
+    document: Document, which: str, hand: HandSettings, wrinkles: bool, size: Size, out: Path, near: str | None = None
+) -> None:
     """Write a picture of a limb: "hand", "arm", "foot", or what a GLB file holds.
+
+    near: the joint whose back the picture shows from close by; None for the whole limb.
 
     Raises HeadError, ParameterError, RenderError, TextureMapError, OSError.
     """
@@ -49,7 +55,10 @@ def limb(document: Document, which: str, hand: HandSettings, wrinkles: bool, siz
         shown = skin.at(posed)
     low, high = shown.positions.min(axis=0), shown.positions.max(axis=0)
     x, y, z = 0.5 * (low + high)
-    distance = 0.5 * _ROOM * float(np.linalg.norm(high - low)) / math.tan(0.5 * document.camera.field_of_view)
+    room = _ROOM * float(np.linalg.norm(high - low))
+    if near is not None:
+        (x, y, z), room = posed[_back_of(part, near)], _CLOSE
+    distance = 0.5 * room / math.tan(0.5 * document.camera.field_of_view)
     document = assign(
         document,
         {"camera.target_x": x, "camera.target_y": y, "camera.target_z": z, "camera.distance": distance},
@@ -58,6 +67,14 @@ def limb(document: Document, which: str, hand: HandSettings, wrinkles: bool, siz
     photographer.renderer.render_limb(shown, document.look, document.camera, size, 2, document.skin)
     save_picture(photographer.renderer.read_pixels(), out)
     say(str(out))
+
+
+def _back_of(part: BodyPart, joint: str) -> int:
+    """The vertex of the skin on the back (+Z) over a joint. Raises HeadError for a joint that is not there."""
+    if part.rig is None:
+        raise HeadError(f"{part.name} has no skeleton, and so no joint {joint!r}")
+    away = np.linalg.norm((part.skin.vertices - part.rig.at(joint))[:, :2], axis=1)
+    return int(np.where(part.skin.vertex_normals[:, 2] > 0, away, np.inf).argmin())
 
 
 def _laid_out(part: BodyPart, posable: bool) -> TriangleMesh:
