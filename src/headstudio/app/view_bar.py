@@ -17,7 +17,7 @@ def draw(ui: Ui, viewport: Viewport, area: Rect, beside: SideView | None = None)
     """Draw them in the upper right corner of ``area``; in the left one what opens and closes the view ``beside``."""
     opener = _draw_opener(ui, beside, area) if beside is not None else 0.0
     style = imgui.get_style()
-    labels = [*SIDES, icons.ICON_FA_EXPAND]
+    labels = [*SIDES, icons.ICON_FA_USER, icons.ICON_FA_EXPAND]
     padding = 2 * style.frame_padding.x
     gap = ui.px(2)
     width = sum(imgui.calc_text_size(label).x + padding + gap for label in labels)
@@ -30,6 +30,9 @@ def draw(ui: Ui, viewport: Viewport, area: Rect, beside: SideView | None = None)
             if ui.button(label, f"Look at the {side} of the head."):
                 viewport.look_from(side)
             imgui.same_line(0, gap)
+        if ui.button("Frame head", "See the head alone, up close (H).", icon=icons.ICON_FA_USER, text=""):
+            viewport.frame_head()
+        imgui.same_line(0, gap)
         if ui.button("Frame", "See all of head and hair (F).", icon=icons.ICON_FA_EXPAND, text=""):
             viewport.frame_all()
     imgui.pop_style_color()

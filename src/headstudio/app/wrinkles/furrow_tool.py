@@ -224,8 +224,8 @@ class FurrowTool(SkinTool):
         pointed = self._nearest_proposal(canvas, touch) if touch is not None and self._hold is None else None
         for number in range(len(self.proposals.furrows)):
             line, shown = lines.line(number), number in (pointed, self.proposals.chosen)
-            width = (2.4 if shown else 1.6) * canvas.scale
-            draw_dashes(drawing, points[line], seen[line], theme.packed(PROPOSED, 1.0 if shown else 0.85), width)
+            colour = theme.packed(theme.ACCENT) if shown else theme.packed(PROPOSED, 0.85)
+            draw_dashes(drawing, points[line], seen[line], colour, (2.6 if shown else 1.6) * canvas.scale)
 
     def _draw_handles(self, canvas: SkinCanvas, drawing: imgui.ImDrawList, furrow: Furrow, touch: Touch | None) -> None:
         places, which = handle_places(canvas.faces, furrow.controls)
