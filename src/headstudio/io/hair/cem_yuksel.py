@@ -29,7 +29,9 @@ _MOST_SEGMENTS = 65535
 def read(path: Path) -> Contents:
     """Thickness is the shaft's diameter; a colour or thickness of the header counts for every point."""
     file = path.read_bytes()
-    if len(file) < _HEADER.itemsize or file[:4] != b"HAIR":
+    if file[:4] == b"HAIR" and len(file) < _HEADER.itemsize:
+        raise HairFileError(f"{path}: damaged: it ends inside its header")
+    if file[:4] != b"HAIR":
         raise HairFileError(f"{path}: this is no .hair file (it does not begin with HAIR)")
     header = np.frombuffer(file, _HEADER, 1)[0]
     arrays, points_there = int(header["arrays"]), int(header["point_count"])

@@ -14,7 +14,7 @@ def read(path: Path) -> Contents:
     """Strands lie one behind the other, each behind its count, so where one begins is known only from the one before."""
     file = path.read_bytes()
     if len(file) < 4 or len(file) % 4:
-        raise HairFileError(f"{path}: this is no .data file of strands (its size is no multiple of 4)")
+        raise HairFileError(f"{path}: this is no .data file of strands (its size is 0 or no multiple of 4)")
     words = np.frombuffer(file, "<i4")
     strands = int(words[0])
     counts, starts, at = [], [], 1
