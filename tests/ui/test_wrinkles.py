@@ -176,3 +176,13 @@ def test_needs_tell_creases_from_the_face(face):
     document = face.studio.document
     assert needs(assign(document, {"face.smile": 0.5, "skin.melanin": 0.2})) == needs(document)
     assert needs(assign(document, {"wrinkle.strength": 0.5})) != needs(document)
+
+
+@pytest.mark.parametrize("shows", ["expansion", "shrinkage", "amplitude", "height"])
+def test_colours_on_the_skin_are_explained(face, shows):
+    assert not face.shown("Scale")
+    face.studio.set("look.skin_shows", shows, "Skin shows")
+    face.frames(2)
+    view, scale = face.rect("Viewport"), face.rect("Scale")
+    assert view.x < scale.x
+    assert scale.y + scale.height < view.y + view.height

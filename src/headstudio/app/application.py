@@ -8,7 +8,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from ..scene.stage import Stage
-from . import shell, status, theme, toasts, view_bar
+from . import scale_bar, shell, status, theme, toasts, view_bar
 from .actions import Actions
 from .commands import run_pressed
 from .dialogs import Dialogs
@@ -169,7 +169,10 @@ class Application:
         self.viewport.draw(self.ui, (width, view.height), self.window.pixels_per_unit)
         if beside is not None and split:
             beside.draw(self.ui, Rect(view.x + width, view.y, view.width - width, view.height))
-        view_bar.draw(self.ui, self.viewport, Rect(view.x, view.y, width, view.height), beside)
+        shown = Rect(view.x, view.y, width, view.height)
+        view_bar.draw(self.ui, self.viewport, shown, beside)
+        if self.editor.skin_as == "living":
+            scale_bar.draw(self.ui, self.studio.document.look.skin_shows, shown)
         status.progress(self.ui, self.studio, view)
         toasts.draw(self.ui, self.studio.messages, view)
 

@@ -56,6 +56,19 @@ def scale_colours(shows: str, count: int = 256) -> Floats:
     return np.stack([np.interp(place, np.arange(len(stops)), colours[:, k]) for k in range(3)], axis=1)
 
 
+def scale_ends(shows: str) -> tuple[str, str, str]:
+    """What the lower end, the middle and the upper end of a scale stand for."""
+    match shows:
+        case "shrinkage":
+            return f"{-100 * _SHRINKAGE:.0f} %", "0", f"{100 * _SHRINKAGE:.0f} %"
+        case "amplitude":
+            return "0", "0.5", "1"
+        case "height":
+            return f"{-1e3 * _HEIGHT:.1f} mm", "0", f"{1e3 * _HEIGHT:.1f} mm"
+        case _:
+            return "half the area", "1", "twice"
+
+
 def _expansion(ratio: Floats) -> Floats:
     """Half the area is 0, twice the area is 1."""
     return 0.5 + 0.5 * np.log2(np.maximum(ratio, 1e-3))
