@@ -86,6 +86,6 @@ void main() {
     // A wet eye mirrors the bright sky, more towards its rim.
     float wet = kind == 0 ? 0.03 + 0.35 * pow(1.0 - max(dot(n, to_eye), 0.0), 5.0) : 0.0;
     vec3 mirrored = sky.rgb * smoothstep(0.35, 0.75, reflect(-to_eye, n).y) * 2.0 * wet * open;
-    vec3 shown = albedo * (radiance.rgb * n_l * lit * mix(0.35, 1.0, open) + soft) + radiance.rgb * shine + mirrored;
+    vec3 shown = albedo * (radiance.rgb * n_l * lit * (kind == 1 || kind == 2 ? open : mix(0.35, 1.0, open)) + soft) + radiance.rgb * shine + mirrored;
     colour = vec4(shown * alpha, alpha);
 }

@@ -14,6 +14,8 @@ from ..lcp.model import HairModel
 
 # From the edge of a tooth to where its gum begins [m].
 _CROWN = (0.0085, 0.0105)
+# So far behind the front teeth a mouth is dark [m].
+_MOUTH_DEPTH = 0.018
 # Skin nearer than this to a root [m] is covered, and bare beyond the second.
 _SCALP_REACH = (0.006, 0.016)
 
@@ -70,8 +72,8 @@ def gums(teeth: TriangleMesh, upper: bool) -> Floats:
 
 def mouth_light(part: Part) -> Floats:
     """How much of the sky a part of the mouth never sees, however far it opens: more from front to back, (n,)."""
-    low, high = part.mesh.bounds[:, 2]
-    return 0.3 + 0.65 * (high - part.mesh.vertices[:, 2]) / max(high - low, 1e-9)
+    behind = part.mesh.bounds[1, 2] - part.mesh.vertices[:, 2]
+    return 0.3 + 0.67 * np.clip(behind / _MOUTH_DEPTH, 0.0, 1.0)
 
 
 def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
