@@ -14,6 +14,11 @@ E = 3e5
 UNDAMPED = DynamicsSettings(spring_damping=0.0)
 
 
+def forces_of(springs, links, velocities, settings):
+    """Force of the damped springs on every particle under ``settings``."""
+    return springs.forces(links, springs.load(links, settings), velocities)
+
+
 def modulus_on_each_side(model, state):
     """E A of every particle by eq. 10 and 11: the sums over its rootward and its tipward springs [N], (n,) each."""
     pull = model.rest_length * state.stiffness
@@ -95,7 +100,7 @@ def test_a_drawn_spring_pulls_and_a_pushed_one_pushes_less():
     springs = Springs(model)
     for factor, share in ((1.1, 1.0), (0.9, 0.25)):
         state = springs.at(model.rest_positions * factor, E)
-        force = springs.forces(state, np.zeros((2, 3)), DynamicsSettings(bending_scale=0.25))
+        force = forces_of(springs, state, np.zeros((2, 3)), DynamicsSettings(bending_scale=0.25))
         expected = share * state.stiffness[0] * 0.01 * (factor - 1)
         np.testing.assert_allclose(force, [[0, -expected, 0], [0, expected, 0]], rtol=1e-9)
 
@@ -104,7 +109,7 @@ def test_limp_springs_do_not_push():
     model = hanging_chain(4)
     springs = Springs(model)
     state = springs.at(model.rest_positions * 0.6, E)
-    np.testing.assert_array_equal(springs.forces(state, np.ones((4, 3)), DynamicsSettings(bending_scale=0.0)), 0)
+    np.testing.assert_array_equal(forces_of(springs, state, np.ones((4, 3)), DynamicsSettings(bending_scale=0.0)), 0)
 
 
 def shaken(model, seed=1):
@@ -119,7 +124,7 @@ def shaken(model, seed=1):
 def test_springs_move_neither_the_whole_nor_turn_it(hair):
     springs = Springs(hair)
     x, v = shaken(hair)
-    force = springs.forces(springs.at(x, E), v, DynamicsSettings(inner_friction=0.0))
+    force = forces_of(springs, springs.at(x, E), v, DynamicsSettings(inner_friction=0.0))
     size = np.abs(force).sum()
     assert size > 1.0
     assert np.linalg.norm(force.sum(axis=0)) < 1e-12 * size
@@ -130,8 +135,8 @@ def test_springs_feel_the_same_wherever_they_are(hair):
     springs = Springs(hair)
     x, v = shaken(hair)
     turn, shift = Rotation.from_rotvec([0.3, -1.2, 0.7]), np.array([0.4, -1.0, 2.0])
-    here = springs.forces(springs.at(x, E), v, DynamicsSettings())
-    there = springs.forces(springs.at(turn.apply(x) + shift, E), turn.apply(v), DynamicsSettings())
+    here = forces_of(springs, springs.at(x, E), v, DynamicsSettings())
+    there = forces_of(springs, springs.at(turn.apply(x) + shift, E), turn.apply(v), DynamicsSettings())
     np.testing.assert_allclose(there, turn.apply(here), atol=1e-9 * np.abs(here).max())
 
 
@@ -139,14 +144,14 @@ def test_damping_takes_energy_and_leaves_sideways_motion_alone(hair):
     springs = Springs(hair)
     x, v = shaken(hair)
     state = springs.at(x, E)
-    damped = springs.forces(state, v, DynamicsSettings(spring_damping=1.0)) - springs.forces(state, v, UNDAMPED)
+    damped = forces_of(springs, state, v, DynamicsSettings(spring_damping=1.0)) - forces_of(springs, state, v, UNDAMPED)
     assert np.sum(damped * v) < 0
     chain = hanging_chain(2)
     chain_springs = Springs(chain)
     state = chain_springs.at(chain.rest_positions * 1.05, E)
     sideways = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, -1.0]])
     np.testing.assert_allclose(
-        chain_springs.forces(state, sideways, DynamicsSettings()), chain_springs.forces(state, sideways, UNDAMPED)
+        forces_of(chain_springs, state, sideways, DynamicsSettings()), forces_of(chain_springs, state, sideways, UNDAMPED)
     )
 
 
@@ -163,7 +168,7 @@ def test_nothing_is_infinite_when_all_have_parted(hair, blow_up):
     state = springs.at(x, E)
     assert np.all(np.isfinite(state.stiffness))
     assert np.all(state.stiffness >= 0)
-    force = springs.forces(state, np.zeros_like(x), UNDAMPED)
+    force = forces_of(springs, state, np.zeros_like(x), UNDAMPED)
     assert np.all(np.isfinite(force))
     # Every particle is still drawn by its lifeline.
     assert np.all(state.stiffness[hair.lifeline[~hair.fixed]] > 0)
@@ -173,7 +178,7 @@ def test_nothing_is_infinite_when_all_are_in_one_place(hair):
     springs = Springs(hair)
     x = np.zeros_like(hair.rest_positions)
     state = springs.at(x, E)
-    assert np.all(np.isfinite(springs.forces(state, x, DynamicsSettings())))
+    assert np.all(np.isfinite(forces_of(springs, state, x, DynamicsSettings())))
     assert np.all(np.isfinite(state.stiffness))
 
 

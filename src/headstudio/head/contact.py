@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,16 +52,33 @@ class ContactField:
         return cls(origin, voxel, _borrow_planes(plane), mean, normal)
 
     def at(self, positions: Floats) -> tuple[Floats, Floats]:
-        """Signed distance d to the local plane [m] (thesis eq. 3.19), infinite far from the body, (n,); its normals, (n, 3)."""
-        index = np.floor((positions - self.origin) / self.voxel).astype(np.int64)
-        shape = np.array(self.plane.shape)
-        inside = np.all((index >= 0) & (index < shape), axis=1)
-        index = np.clip(index, 0, shape - 1)
-        plane = np.where(inside, self.plane[index[:, 0], index[:, 1], index[:, 2]], -1)
-        normals = self.normals[plane]
-        offset = positions - self.points[plane]
-        distance = np.where(plane >= 0, np.einsum("ij,ij->i", offset, normals), np.inf)
-        return distance, normals
+        """Signed distance d to the local plane [m] (thesis eq. 3.19), infinite far from the body, (n,); its normals, zero
+        there, (n, 3). positions: [m], (n, 3)."""
+        plane = self._plane_of_cell.take(self._cells(positions))
+        normals = self._normals.take(plane, axis=0)
+        return np.einsum("ij,ij->i", positions, normals) - self._offsets.take(plane), normals
+
+    def _cells(self, positions: Floats) -> NDArray[np.int32]:
+        """Where in ``_plane_of_cell`` positions are, (n,): outside, and where they are no numbers, in its border."""
+        last = np.array(self.plane.shape) + 1
+        cell = (positions - (self.origin - self.voxel)) / self.voxel
+        whole = np.fmin(np.fmax(cell, 0.0), last).astype(np.int32)
+        return (whole[:, 0] * (last[1] + 1) + whole[:, 1]) * (last[2] + 1) + whole[:, 2]
+
+    @cached_property
+    def _plane_of_cell(self) -> NDArray[np.int32]:
+        """``plane`` with a border of -1, flat."""
+        return np.pad(self.plane, 1, constant_values=-1).ravel()
+
+    @cached_property
+    def _normals(self) -> Floats:
+        """The normals, and none last: the plane -1 is infinitely far from everything."""
+        return np.vstack([self.normals, np.zeros(3)])
+
+    @cached_property
+    def _offsets(self) -> Floats:
+        """Where each plane is along its normal [m]."""
+        return np.append(np.einsum("ij,ij->i", self.points, self.normals), -np.inf)
 
 
 def _borrow_planes(plane: NDArray[np.int32]) -> NDArray[np.int32]:

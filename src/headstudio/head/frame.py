@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -32,6 +33,11 @@ class HeadFrame:
     acceleration: Floats = field(default_factory=_zeros)
     angular_velocity: Floats = field(default_factory=_zeros)
     angular_acceleration: Floats = field(default_factory=_zeros)
+
+    @cached_property
+    def axes(self) -> Floats:
+        """The axes of the head in the world as columns, (3, 3): what turns many vectors with the least ado."""
+        return self.rotation.as_matrix()
 
     def to_world(self, points: Floats) -> Floats:
         """Points of the head frame [m], shape (n, 3), in the world."""

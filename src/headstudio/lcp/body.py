@@ -48,14 +48,14 @@ class Body:
         if frame is None:
             torso_distance, torso_normals = self.torso.at(positions)
         else:
-            torso_distance, torso_normals = self.torso.at(frame.rotation.apply(positions))
-            torso_normals = frame.rotation.inv().apply(torso_normals)
-        nearer = torso_distance < distance
-        distance = np.where(nearer, torso_distance, distance)
-        normals = np.where(nearer[:, None], torso_normals, normals)
+            torso_distance, torso_normals = self.torso.at(positions @ frame.axes.T)
+            torso_normals = torso_normals @ frame.axes
+        nearer = np.flatnonzero(torso_distance < distance)
+        distance[nearer] = torso_distance[nearer]
+        normals[nearer] = torso_normals[nearer]
         if frame is not None:
-            spin = frame.rotation.inv().apply(frame.angular_velocity)
-            velocity = np.where(nearer[:, None], positions @ cross_matrix(spin), 0.0)
+            spin = frame.angular_velocity @ frame.axes
+            velocity[nearer] = positions[nearer] @ cross_matrix(spin)
         return distance, normals, velocity
 
     def clearance(self, positions: Floats) -> Floats:
@@ -69,5 +69,5 @@ class Body:
         # Below the sliding distance a direction must lead out again, the more the deeper it is.
         wanted = np.clip((_SLIDING_DISTANCE - distance) / _SLIDING_DISTANCE, 0.0, 1.0) * 0.5
         correction = np.where(distance < _SLIDING_DISTANCE, np.maximum(wanted - inward, 0.0), 0.0)
-        turned = directions + correction[:, None] * np.nan_to_num(normals)
+        turned = directions + correction[:, None] * normals
         return turned / np.linalg.norm(turned, axis=1, keepdims=True)

@@ -50,7 +50,7 @@ def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) 
     thickness = _THICKNESS * model.spacing
     begins = (model.arc_length < _BEGINNING * model.spacing) | (model.rest_clearance < 0)
     keep = np.where(begins, np.minimum(thickness, model.rest_clearance), thickness)
-    return Touching(distance, np.where(np.isfinite(distance)[:, None], normals, 0.0), velocity, keep)
+    return Touching(distance, normals, velocity, keep)
 
 
 def stop_at_body(
@@ -106,13 +106,14 @@ class Tethers:
 
     def drawn_along(self, positions: Floats) -> Floats:
         """Positions [m], (n, 3), where what was left behind has followed."""
-        offset = positions[self._tipward] - positions[self._rootward]
-        length = np.sqrt(np.einsum("ij,ij->i", offset, offset))
-        far = np.flatnonzero((length > self._longest) & (length < self._holds_until))
+        offset = positions.take(self._tipward, axis=0) - positions.take(self._rootward, axis=0)
+        square = np.einsum("ij,ij->i", offset, offset)
+        far = np.flatnonzero((square > self._longest**2) & (square < self._holds_until**2))
         if len(far) == 0:
             return positions
+        length = np.sqrt(square[far])
         behind, count = self._tipward[far], len(positions)
-        way = (self._longest[far] / length[far] - 1.0)[:, None] * offset[far]
+        way = (self._longest[far] / length - 1.0)[:, None] * offset[far]
         share = 1.0 / np.bincount(behind, minlength=count)[behind]
         drawn = positions.copy()
         for axis in range(3):

@@ -19,22 +19,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy import sparse
 
 from ..head.mesh import Floats
 from .dynamics import Circumstances, Dynamics
 from .model import HairState
-from .settings import DynamicsSettings
-from .springs import LinkState
+from .spring_matrix import SpringMatrix
 
-# A step has two parts for links of 3 cm and more the shorter they are, so that between two parts no link turns round; and
-# more, for accuracy, as long as few particles leave the time for it.
-_FEWEST_PARTS, _MOST_PARTS = 2, 6
-_PART_LENGTH = 0.056  # [m]
-_PARTICLES_IN_TIME = 5000  # particles times parts that keep up with real time
+# A step has four parts for links of 3 cm, and more the shorter they are: of what a head's shake does in a part, no link
+# turns far. And more, for accuracy, as long as few particles leave the time for it.
+_FEWEST_PARTS, _MOST_PARTS = 4, 6
+_PART_LENGTH = 0.12  # [m]
+_PARTICLES_IN_TIME = 8000  # particles times parts that keep up with real time
 _STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
 _TOLERANCE = 1e-2
-_MOST_ITERATIONS = 60
 
 
 class ImplicitSolver:
@@ -48,7 +45,7 @@ class ImplicitSolver:
         length = float(np.median(model.rest_length)) if len(model.rest_length) else _PART_LENGTH
         affordable = min(_PARTICLES_IN_TIME // max(model.count, 1), _MOST_PARTS)
         self.parts = parts or max(_FEWEST_PARTS, round(_PART_LENGTH / length), affordable)
-        self._matrix = _SpringMatrix(dynamics, tolerance)
+        self._matrix = SpringMatrix(model, dynamics.springs, tolerance)
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
@@ -79,12 +76,13 @@ class ImplicitSolver:
 
         ahead = x_hat + g * v
         links = dynamics.links(ahead, settings)
+        load = dynamics.springs.load(links, settings)
         force = mass * (outer + push + dynamics.inner_acceleration(settings, frame, ahead, v, rest_turn, dt))
-        force += dynamics.springs.forces(links, v, settings)
+        force += dynamics.springs.forces(links, load, v)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         with dynamics.timer.stage("solve"):
             inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
-            self._matrix.update(links, settings, g, inertia * model.mass)
+            self._matrix.update(links, load, g, inertia * model.mass)
             change = self._matrix.solve(right, v - v_before)
             self.iterations += self._matrix.iterations
 
@@ -111,7 +109,8 @@ class ImplicitSolver:
         dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time)
         x, v = state.positions, state.velocities
         touch = dynamics.touch(x, frame)
-        springs = dynamics.springs.forces(dynamics.links(x, settings), v, settings)
+        links = dynamics.links(x, settings)
+        springs = dynamics.springs.forces(links, dynamics.springs.load(links, settings), v)
         acceleration = outer - settings.air_friction * v
         acceleration += dynamics.inner_acceleration(settings, frame, x, v, rest_turn, dt)
         acceleration += springs / dynamics.model.mass[:, None]
@@ -125,99 +124,3 @@ def _along(way: Floats, a: Floats, most: float) -> Floats:
     square = np.einsum("ij,ij->i", way, way)
     share = np.einsum("ij,ij->i", way, a) / np.maximum(square, 1e-30)
     return np.clip(share, -most, most)[:, None] * way
-
-
-def _inverse_of_symmetric(blocks: Floats) -> Floats:
-    """The inverses of symmetric 3 x 3 matrices by their cofactors, (n, 3, 3): a third of the time of a general solver."""
-    a, b, c = blocks[:, 0, 0], blocks[:, 0, 1], blocks[:, 0, 2]
-    d, e, f = blocks[:, 1, 1], blocks[:, 1, 2], blocks[:, 2, 2]
-    cofactors = np.empty_like(blocks)
-    cofactors[:, 0, 0] = d * f - e * e
-    cofactors[:, 0, 1] = cofactors[:, 1, 0] = c * e - b * f
-    cofactors[:, 0, 2] = cofactors[:, 2, 0] = b * e - c * d
-    cofactors[:, 1, 1] = a * f - c * c
-    cofactors[:, 1, 2] = cofactors[:, 2, 1] = b * c - a * e
-    cofactors[:, 2, 2] = a * d - b * b
-    determinant = a * cofactors[:, 0, 0] + b * cofactors[:, 0, 1] + c * cofactors[:, 0, 2]
-    return cofactors / determinant[:, None, None]
-
-
-class _SpringMatrix:
-    """The matrix of the free particles in 3 x 3 blocks, with a fixed pattern, and its solution."""
-
-    def __init__(self, dynamics: Dynamics, tolerance: float) -> None:
-        self.tolerance = tolerance
-        self.springs = dynamics.springs
-        model = dynamics.model
-        self.model = model
-        free = np.flatnonzero(~model.fixed)
-        self.free = free
-        place = np.full(model.count, -1)
-        place[free] = np.arange(len(free))
-        rootward, tipward = place[model.links].T
-        inner = np.flatnonzero((rootward >= 0) & (tipward >= 0))
-        a, b = rootward[inner], tipward[inner]
-        count = len(free)
-        # Numbering the blocks and letting scipy sort them tells where each one goes.
-        rows = np.concatenate([np.arange(count), a, b])
-        columns = np.concatenate([np.arange(count), b, a])
-        numbered = sparse.csr_array((np.arange(1, len(rows) + 1), (rows, columns)), shape=(count, count))
-        numbered.sort_indices()
-        place_of = np.empty(len(rows), dtype=np.int64)
-        place_of[numbered.data - 1] = np.arange(len(rows))
-        self._diagonal = place_of[:count]
-        # The link that couples the two particles of a block; blocks of the diagonal are overwritten.
-        self._link_of = np.zeros(len(rows), dtype=np.int64)
-        self._link_of[place_of[count:]] = np.concatenate([inner, inner])
-        self._blocks = np.zeros((len(rows), 3, 3))
-        self._matrix = sparse.bsr_array((self._blocks, numbered.indices, numbered.indptr), shape=(3 * count, 3 * count))
-        self._blocks = self._matrix.data
-        self.iterations = 0
-
-    def update(self, links: LinkState, settings: DynamicsSettings, g: float, inertia: Floats) -> None:
-        """Fill the blocks for the links at one instant. inertia: what stands on the diagonal besides them [kg], (n,)."""
-        springs = self.springs
-        pull, stiffness = springs.tension(links, settings.bending_scale)
-        damping = springs.damping(stiffness, settings.spring_damping)
-        # A pulled link also resists turning; a pushed one would help it, and is left out to keep the matrix definite.
-        turning = g * g * np.maximum(pull, 0.0) / np.maximum(links.length, 1e-9)
-        along = g * g * stiffness + g * damping - turning
-        across = turning + g * springs.friction(settings.inner_friction)
-        block = (along[:, None] * links.unit)[:, :, None] * links.unit[:, None, :]
-        block.reshape(-1, 9)[:, ::4] += across[:, None]
-        diagonal = springs.sum_around(block.reshape(-1, 9))[self.free]
-        diagonal[:, ::4] += inertia[self.free, None]
-        np.take(-block, self._link_of, axis=0, out=self._blocks, mode="clip")
-        self._blocks[self._diagonal] = diagonal.reshape(-1, 3, 3)
-        self._inverse = _inverse_of_symmetric(diagonal.reshape(-1, 3, 3))
-
-    def solve(self, right: Floats, guess: Floats) -> Floats:
-        """Conjugate gradients from ``guess``, preconditioned with the inverted diagonal blocks; (n, 3), root particles zero."""
-        matrix, inverse = self._matrix, self._inverse
-        wanted = right[self.free].ravel()
-        solution = guess[self.free].ravel()
-        residual = wanted - matrix @ solution
-
-        def precondition(r: Floats) -> Floats:
-            return np.einsum("nij,nj->ni", inverse, r.reshape(-1, 3)).ravel()
-
-        z = precondition(residual)
-        direction = z.copy()
-        rho = residual @ z
-        if not np.isfinite(rho):
-            # A force that is no number must not pass for one that is solved.
-            return np.full_like(right, np.nan)
-        goal = self.tolerance**2 * (wanted @ precondition(wanted))
-        self.iterations = 0
-        while rho > goal and self.iterations < _MOST_ITERATIONS:
-            image = matrix @ direction
-            step = rho / (direction @ image)
-            solution += step * direction
-            residual -= step * image
-            z = precondition(residual)
-            rho, last = residual @ z, rho
-            direction = z + (rho / last) * direction
-            self.iterations += 1
-        result = np.zeros_like(right)
-        result[self.free] = solution.reshape(-1, 3)
-        return result

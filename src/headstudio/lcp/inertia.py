@@ -16,10 +16,9 @@ def apparent_acceleration(frame: HeadFrame, positions: Floats, velocities: Float
 
     positions [m] and velocities [m/s] in the head frame, (n, 3). gravity: [m/s^2], downward in the world.
     """
-    to_head = frame.rotation.inv()
-    falling = to_head.apply(np.array([0.0, -gravity, 0.0]) - frame.acceleration)
-    spin = to_head.apply(frame.angular_velocity)
-    spin_change = to_head.apply(frame.angular_acceleration)
+    falling = (np.array([0.0, -gravity, 0.0]) - frame.acceleration) @ frame.axes
+    spin = frame.angular_velocity @ frame.axes
+    spin_change = frame.angular_acceleration @ frame.axes
     # One matrix for Euler and centrifugal, one for Coriolis: x -> a x is a cross product.
     turning = cross_matrix(spin)
     by_position = -cross_matrix(spin_change) - turning @ turning

@@ -35,11 +35,10 @@ def hair_hair_forces(
     """
     h = model.smoothing_length
     i, j = pairs.T
-    columns = np.ascontiguousarray(state.positions.T)
-    x = columns[:, j] - columns[:, i]
+    x = _between(state.positions, i, j)
     distance = np.sqrt(_dot(x, x))
     near = np.flatnonzero(distance < 2.0 * h)
-    i, j, x, distance = i[near], j[near], x[:, near], distance[near]
+    i, j, x, distance = i.take(near), j.take(near), x.take(near, axis=1), distance.take(near)
     count, mass = model.count, model.mass
     weight = kernel(distance, h)
     density = mass * kernel(np.zeros(1), h) + _gather(mass[j] * weight, mass[i] * weight, i, j, count)
@@ -79,10 +78,9 @@ def _contact_drag(
     dt: float,
 ) -> Floats:
     """Eq. 17 and 18: collision along d_n, friction along d_t, the force on i per pair [N], (3, p)."""
+    v = _between(state.velocities, i, j)
     t = np.ascontiguousarray(state.directions.T)
-    moving = np.ascontiguousarray(state.velocities.T)
-    v = moving[:, j] - moving[:, i]
-    t_i, t_j = t[:, i], t[:, j]
+    t_i, t_j = t.take(i, axis=1), t.take(j, axis=1)
     normal = np.stack(
         [
             t_i[1] * t_j[2] - t_i[2] * t_j[1],
@@ -106,6 +104,12 @@ def _contact_drag(
     friction = unit_rate * settings.friction
     drag: Floats = bound * (friction * v + (collision - friction * along) * normal)
     return drag
+
+
+def _between(vectors: Floats, i: Ints, j: Ints) -> Floats:
+    """What j has more than i of (n, 3) vectors, pair by pair, as columns, (3, p)."""
+    columns = np.ascontiguousarray(vectors.T)
+    return columns.take(j, axis=1) - columns.take(i, axis=1)
 
 
 def _dot(a: Floats, b: Floats) -> Floats:

@@ -49,7 +49,7 @@ class LeapfrogSolver:
         rest_turn = dynamics.bending.rest_turn(state.directions)
         acceleration += dynamics.inner_acceleration(settings, frame, x, v, rest_turn, dt)
         links = dynamics.links(x, settings)
-        acceleration += dynamics.springs.forces(links, v, settings) / mass
+        acceleration += dynamics.springs.forces(links, dynamics.springs.load(links, settings), v) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v, _ = dynamics.hold(x, v, touch, touch.distance, now, dt)
         distance = touch.distance + dt * np.einsum("ij,ij->i", v - touch.velocity, touch.normals)

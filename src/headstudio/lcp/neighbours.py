@@ -11,8 +11,9 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 
-# The rows of cells after a cell, in the order of the sorted array: (dy, dz, first dx, last dx).
-_HALF_ROWS = ((0, 0, 0, 1), (1, 0, -1, 1), (-1, 1, -1, 1), (0, 1, -1, 1), (1, 1, -1, 1))
+# The rows of cells from a cell on, in the order of the sorted array: (dy, dz, first dx, last dx). Of its own row those
+# that come after it.
+_HALF_ROWS = np.array([(0, 0, 0, 1), (1, 0, -1, 1), (-1, 1, -1, 1), (0, 1, -1, 1), (1, 1, -1, 1)])
 
 
 def find_pairs(positions: Floats, radius: float) -> Ints:
@@ -24,29 +25,25 @@ def find_pairs(positions: Floats, radius: float) -> Ints:
     nx, ny = cell[:, 0].max() + 2, cell[:, 1].max() + 2
     key = (cell[:, 2] * ny + cell[:, 1]) * nx + cell[:, 0]
     order = np.argsort(key, kind="stable")
-    key = key[order]
-    sorted_columns = np.ascontiguousarray(positions[order].T)
-    pieces = []
-    for dy, dz, first, last in _HALF_ROWS:
-        shift = (dz * ny + dy) * nx
-        same_cell = dy == 0 and dz == 0
-        begin = np.arange(1, count + 1) if same_cell else np.searchsorted(key, key + shift + first, "left")
-        end = np.searchsorted(key, key + shift + last, "right")
-        runs = np.maximum(end - begin, 0)
-        i = np.repeat(np.arange(count), runs)
-        # The k-th candidate of a run stands k places behind the run's begin.
-        j = np.arange(len(i)) + np.repeat(begin - np.cumsum(runs) + runs, runs)
-        near = _squared_distance(sorted_columns, i, j) < radius * radius
-        pieces.append(np.stack([i[near], j[near]], axis=1))
-    return order[np.concatenate(pieces)]
-
-
-def _squared_distance(columns: Floats, i: Ints, j: Ints) -> Floats:
-    """|x_j - x_i|^2 for particles given as columns, (3, n)."""
-    x = columns[0][j] - columns[0][i]
-    y = columns[1][j] - columns[1][i]
-    z = columns[2][j] - columns[2][i]
-    return x * x + y * y + z * z
+    key, columns = key[order], np.ascontiguousarray(positions[order].T)
+    # All particles of a cell look through the same runs, but for those of their own row.
+    opens = np.append(True, key[1:] != key[:-1])
+    cell_key, cell_of = key[opens], np.cumsum(opens) - 1
+    dy, dz, first, last = _HALF_ROWS.T[:, :, None]
+    row = cell_key + (dz * ny + dy) * nx
+    begin = np.searchsorted(key, row + first, "left")[:, cell_of]
+    begin[0] = np.arange(1, count + 1)
+    runs = np.maximum(np.searchsorted(key, row + last, "right")[:, cell_of] - begin, 0).ravel()
+    # The k-th candidate of a run stands k places behind the run's begin.
+    ends = np.cumsum(runs)
+    i = np.repeat(np.tile(np.arange(count), len(_HALF_ROWS)), runs)
+    j = np.arange(ends[-1]) + np.repeat(begin.ravel() - ends + runs, runs)
+    square = np.zeros(len(j))
+    for x in columns:
+        way = x.take(j) - x.take(i)
+        square += way * way
+    near = np.flatnonzero(square < radius * radius)
+    return order[np.stack([i[near], j[near]], axis=1)]
 
 
 class NeighbourList:

@@ -32,6 +32,17 @@ class LinkState:
     stiffness: Floats
 
 
+@dataclass(frozen=True, eq=False)
+class Load:
+    """What damped springs do at one instant, m of them: how strongly each pulls [N], negative when it pushes, its stiffness
+    then [N/m], its damping along itself [kg/s], and its friction in all directions [kg/s], (m,)."""
+
+    pull: Floats
+    stiffness: Floats
+    damping: Floats
+    friction: Floats
+
+
 class Springs:
     """The springs of one head of hair."""
 
@@ -52,6 +63,8 @@ class Springs:
         self._least = np.zeros(links)
         held = model.lifeline[model.lifeline >= 0]
         self._least[held] = _LAST_HOLD * np.maximum(rest[held], _LAST_HOLD * rest.mean())
+        first, second = model.mass[model.links].T
+        self._reduced_mass = first * second / (first + second)
         degree = np.maximum(np.bincount(model.links.ravel(), minlength=count), 1)
         # A particle that moves against all that it is linked to is slowed down at the rate of the inner friction.
         self._shared_mass = np.sqrt(np.prod((model.mass / degree)[model.links], axis=1))
@@ -88,22 +101,24 @@ class Springs:
 
     def damping(self, stiffness: Floats, ratio: float) -> Floats:
         """Damping coefficient of each link [kg/s], ``ratio`` of the critical one of its two ends, (m,)."""
-        i, j = self.model.links.T
-        mass = self.model.mass
-        reduced = mass[i] * mass[j] / (mass[i] + mass[j])
-        return 2.0 * ratio * np.sqrt(stiffness * reduced)
+        return 2.0 * ratio * np.sqrt(stiffness * self._reduced_mass)
 
     def friction(self, rate: float) -> Floats:
         """Coefficient of each link [kg/s] with which linked hair takes up a common velocity at ``rate`` [1/s], (m,)."""
         return rate * self._shared_mass
 
-    def forces(self, links: LinkState, velocities: Floats, settings: DynamicsSettings) -> Floats:
-        """Force of the damped springs on every particle [N], (n, 3). velocities: [m/s], (n, 3)."""
+    def load(self, links: LinkState, settings: DynamicsSettings) -> Load:
+        """What the springs do under these settings."""
         pull, stiffness = self.tension(links, settings.bending_scale)
+        damping = self.damping(stiffness, settings.spring_damping)
+        return Load(pull, stiffness, damping, self.friction(settings.inner_friction))
+
+    def forces(self, links: LinkState, load: Load, velocities: Floats) -> Floats:
+        """Force of the damped springs on every particle [N], (n, 3). velocities: [m/s], (n, 3)."""
         parting = self._difference @ velocities
         closing = np.einsum("ij,ij->i", parting, links.unit)
-        pull = pull + self.damping(stiffness, settings.spring_damping) * closing
-        return self.spread(pull[:, None] * links.unit + self.friction(settings.inner_friction)[:, None] * parting)
+        pull = load.pull + load.damping * closing
+        return self.spread(pull[:, None] * links.unit + load.friction[:, None] * parting)
 
     def spread(self, pull: Floats) -> Floats:
         """Add what pulls along every link to its rootward particle and take it from its tipward one, (m, 3) to (n, 3)."""

@@ -1,0 +1,113 @@
+"""The matrix of the implicit solver: the springs between the free particles, and its solution.
+
+The pattern of the links never changes, so where each number goes is worked out once. A link adds the same symmetric
+3 x 3 block, six different numbers, to the diagonal at both of its ends and takes it from the two places that couple them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+
+from ..head.mesh import Floats
+from .model import HairModel
+from .springs import LinkState, Load, Springs
+
+_MOST_ITERATIONS = 60
+# The places of a symmetric 3 x 3 block, row by row, among its six numbers xx, xy, xz, yy, yz, zz.
+_SIX_OF_NINE = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
+
+
+class SpringMatrix:
+    """M + g D + g^2 K of the free particles, and conjugate gradients on it."""
+
+    def __init__(self, model: HairModel, springs: Springs, tolerance: float) -> None:
+        """tolerance: of the residual, as a part of the right side."""
+        self.tolerance = tolerance
+        self.iterations = 0
+        self._springs = springs
+        self._free = np.flatnonzero(~model.fixed)
+        count, links = len(self._free), len(model.links)
+        place = np.full(model.count, -1)
+        place[self._free] = np.arange(count)
+        rootward, tipward = place[model.links].T
+        inner = np.flatnonzero((rootward >= 0) & (tipward >= 0))
+        # Every block by the six numbers it is made of: those of the links first, then those of the diagonal.
+        block = np.concatenate([links + np.arange(count), inner, inner])
+        rows = np.concatenate([np.arange(count), rootward[inner], tipward[inner]])
+        columns = np.concatenate([np.arange(count), tipward[inner], rootward[inner]])
+        entry_rows = (3 * rows[:, None] + np.repeat(np.arange(3), 3)).ravel()
+        entry_columns = (3 * columns[:, None] + np.tile(np.arange(3), 3)).ravel()
+        source = (_SIX_OF_NINE * (links + count) + block[:, None]).ravel()
+        # Numbering the entries and letting scipy sort them tells where each one goes.
+        numbered = sparse.csr_array((np.arange(len(source)), (entry_rows, entry_columns)), shape=(3 * count, 3 * count))
+        numbered.sort_indices()
+        self._source = source[numbered.data]
+        self._matrix = sparse.csr_array(
+            (np.zeros(len(source)), numbered.indices.astype(np.int32), numbered.indptr.astype(np.int32)),
+            shape=numbered.shape,
+        )
+        self._six = np.zeros((6, links + count))
+        one_each = np.arange(count + 1)
+        self._inverse = sparse.bsr_array((np.zeros((count, 3, 3)), one_each[:-1], one_each), shape=numbered.shape)
+
+    def update(self, links: LinkState, load: Load, g: float, inertia: Floats) -> None:
+        """Fill the matrix for the links at one instant. inertia: what stands on the diagonal besides them [kg], (n,)."""
+        # A pulled link also resists turning; a pushed one would help it, and is left out to keep the matrix definite.
+        turning = g * g * np.maximum(load.pull, 0.0) / np.maximum(links.length, 1e-9)
+        along = g * g * load.stiffness + g * load.damping - turning
+        across = turning + g * load.friction
+        count = len(along)
+        x, y, z = np.ascontiguousarray(links.unit.T)
+        of_links, of_diagonal = self._six[:, :count], self._six[:, count:]
+        pushed = along * x
+        of_links[0], of_links[1], of_links[2] = pushed * x + across, pushed * y, pushed * z
+        pushed = along * y
+        of_links[3], of_links[4] = pushed * y + across, pushed * z
+        of_links[5] = along * z * z + across
+        of_diagonal[:] = self._springs.sum_around(np.ascontiguousarray(of_links.T))[self._free].T
+        of_diagonal[[0, 3, 5]] += inertia[self._free]
+        of_links *= -1.0
+        np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
+        _invert_symmetric(of_diagonal, self._inverse.data)
+
+    def solve(self, right: Floats, guess: Floats) -> Floats:
+        """Conjugate gradients from ``guess``, preconditioned with the inverted diagonal blocks; (n, 3), root particles zero."""
+        matrix, inverse = self._matrix, self._inverse
+        wanted = right[self._free].ravel()
+        solution = guess[self._free].ravel()
+        residual = wanted - matrix @ solution
+        z = inverse @ residual
+        direction = z.copy()
+        rho = residual @ z
+        if not np.isfinite(rho):
+            # A force that is no number must not pass for one that is solved.
+            return np.full_like(right, np.nan)
+        goal = self.tolerance**2 * (wanted @ (inverse @ wanted))
+        self.iterations = 0
+        while rho > goal and self.iterations < _MOST_ITERATIONS:
+            image = matrix @ direction
+            step = rho / (direction @ image)
+            solution += step * direction
+            residual -= step * image
+            z = inverse @ residual
+            rho, last = residual @ z, rho
+            direction *= rho / last
+            direction += z
+            self.iterations += 1
+        result = np.zeros_like(right)
+        result[self._free] = solution.reshape(-1, 3)
+        return result
+
+
+def _invert_symmetric(six: Floats, out: Floats) -> None:
+    """The inverses of symmetric 3 x 3 matrices by their cofactors. six: xx, xy, xz, yy, yz, zz, (6, n). out: (n, 3, 3)."""
+    a, b, c, d, e, f = six
+    first, second, third = d * f - e * e, c * e - b * f, b * e - c * d
+    scale = 1.0 / (a * first + b * second + c * third)
+    out[:, 0, 0] = first * scale
+    out[:, 0, 1] = out[:, 1, 0] = second * scale
+    out[:, 0, 2] = out[:, 2, 0] = third * scale
+    out[:, 1, 1] = (a * f - c * c) * scale
+    out[:, 1, 2] = out[:, 2, 1] = (b * c - a * e) * scale
+    out[:, 2, 2] = (a * d - b * b) * scale
