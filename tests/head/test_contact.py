@@ -101,3 +101,29 @@ def test_same_body_same_planes():
     first, second = (ContactField.around(shape, VOXEL) for _ in range(2))
     np.testing.assert_array_equal(first.points, second.points)
     np.testing.assert_array_equal(first.plane, second.plane)
+
+
+def test_a_surface_hides_nothing_beyond_its_border():
+    """Below the rim of a cap the planes of its rim would, drawn on, call the outside inside."""
+    ball = trimesh.creation.icosphere(subdivisions=5, radius=RADIUS).apply_translation(CENTRE)
+    rim = CENTRE[1] + 0.5 * RADIUS
+    cap = mesh_of(trimesh.Trimesh(ball.vertices, ball.faces[ball.triangles_center[:, 1] > rim], process=False))
+    turn, down, out = np.random.default_rng(3).random((3, 2000))
+    around = np.sqrt(0.75) * RADIUS + (2.0 * out - 1.0) * VOXEL
+    below = (2.0 + 0.4 * down) * VOXEL
+    beyond = np.column_stack([around * np.cos(7 * turn), rim - CENTRE[1] - below, around * np.sin(7 * turn)]) + CENTRE
+    assert np.all(np.isinf(ContactField.around(cap, VOXEL).at(beyond)[0]))
+
+
+def test_beyond_a_ridge_outside_stays_outside():
+    """Above one slope of a roof a point is not below the other one's plane."""
+    roof = trimesh.creation.box(extents=(0.4, 0.1, 0.4)).apply_transform(
+        trimesh.transformations.rotation_matrix(np.pi / 4, [0, 0, 1])
+    )
+    field = ContactField.around(mesh_of(roof.subdivide_to_size(0.008)), 0.014)
+    rng = np.random.default_rng(5)
+    points = rng.uniform(-0.3, 0.3, (60_000, 3)) * [1.0, 1.0, 0.4]
+    turned = points @ np.array([[1, 1, 0], [-1, 1, 0], [0, 0, np.sqrt(2)]]).T / np.sqrt(2)
+    outside = np.max(np.abs(turned) - [0.2, 0.05, 0.2], axis=1)
+    seen = field.at(points)[0]
+    assert np.all(seen[outside > 0.01] > 0)

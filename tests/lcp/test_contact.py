@@ -163,7 +163,8 @@ def test_the_torso_stands_still_while_the_head_turns():
     frame = HeadFrame(rotation=Rotation.from_rotvec([0.0, 0.8, 0.0]), angular_velocity=np.array([0.0, 3.0, 0.0]))
     on_torso = np.array([[0.02, -0.1, 0.1]])  # in the world
     seen = frame.to_head(on_torso)
-    distance, normals, velocity = body.planes(seen, frame)
+    planes = body.planes(seen, frame)
+    distance, normals, velocity = planes.distance, planes.normals, planes.velocity
     assert distance[0] == pytest.approx(np.linalg.norm(on_torso[0] - [0, -0.2, 0.1]) - RADIUS, abs=0.002)
     outward = frame.rotation.apply(normals)[0]
     assert outward @ (on_torso[0] - [0, -0.2, 0.1]) > 0.095
@@ -171,7 +172,7 @@ def test_the_torso_stands_still_while_the_head_turns():
     later = HeadFrame(rotation=Rotation.from_rotvec([0.0, 0.8 + 3e-6, 0.0]))
     np.testing.assert_allclose(velocity, (later.to_head(on_torso) - seen) / 1e-6, atol=1e-5)
     on_head = np.array([[0.0, 0.18, 0.0]])
-    np.testing.assert_array_equal(body.planes(on_head, frame)[2], 0)
+    np.testing.assert_array_equal(body.planes(on_head, frame).velocity, 0)
 
 
 def no_touch(count):

@@ -51,7 +51,11 @@ class Chain:
         def motion(_, y):
             x, v = y.reshape(2, 6, 3)
             links = self.springs.at(x, GENTLE.elastic_modulus)
-            a = self.springs.forces(links, self.springs.load(links, GENTLE), v) / mass - GENTLE.air_friction * v + [0, -GENTLE.gravity, 0]
+            a = (
+                self.springs.forces(links, self.springs.load(links, GENTLE), v) / mass
+                - GENTLE.air_friction * v
+                + [0, -GENTLE.gravity, 0]
+            )
             a[0] = 0
             return np.concatenate([v.ravel(), a.ravel()])
 

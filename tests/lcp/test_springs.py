@@ -151,7 +151,8 @@ def test_damping_takes_energy_and_leaves_sideways_motion_alone(hair):
     state = chain_springs.at(chain.rest_positions * 1.05, E)
     sideways = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, -1.0]])
     np.testing.assert_allclose(
-        forces_of(chain_springs, state, sideways, DynamicsSettings()), forces_of(chain_springs, state, sideways, UNDAMPED)
+        forces_of(chain_springs, state, sideways, DynamicsSettings()),
+        forces_of(chain_springs, state, sideways, UNDAMPED),
     )
 
 

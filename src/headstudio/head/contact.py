@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from .locate import Locator
 from .mesh import Floats, TriangleMesh
 from .sampling import sample_surface
 
@@ -23,8 +24,9 @@ class ContactField:
     origin: corner of the first voxel [m], (3,). voxel: edge of a voxel [m]. plane: index of the plane in every voxel, -1
     where the surface is far away, (nx, ny, nz). points: a point on every plane [m], normals: its unit normal, (p, 3).
 
-    Voxels that hold samples of the surface have a plane of their own. Two layers of voxels around those borrow the plane
-    of the nearest: a particle that got below the surface in one step is still brought back.
+    Voxels that hold samples of the surface have their mean plane. Two layers of voxels around those have the plane that
+    touches the surface nearest to them: a particle that got below the surface in one step is still brought back. (A plane
+    borrowed from the voxel next door would, beyond a ridge, call outside what is inside, and the other way round.)
     """
 
     origin: Floats
@@ -49,7 +51,14 @@ class ContactField:
         plane = np.full(shape, -1, dtype=np.int32)
         plane.flat[occupied[clear]] = np.arange(np.count_nonzero(clear), dtype=np.int32)
         mean, normal = mean[clear], normal[clear] / length[clear, None]
-        return cls(origin, voxel, _borrow_planes(plane), mean, normal)
+        nearby = _shell(plane)
+        centres = origin + (np.stack(np.nonzero(nearby), axis=1) + 0.5) * voxel
+        below, facing = _tangent_planes(mesh, centres)
+        # Where the surface ends its planes go on for a voxel and no further: beyond its border nothing is below it.
+        across = np.cross(centres - below, facing)
+        ends = np.einsum("ij,ij->i", across, across) > voxel**2
+        plane[nearby] = np.where(ends, -1, len(mean) + np.arange(len(centres)))
+        return cls(origin, voxel, plane, np.vstack([mean, below]), np.vstack([normal, facing]))
 
     def at(self, positions: Floats) -> tuple[Floats, Floats]:
         """Signed distance d to the local plane [m] (thesis eq. 3.19), infinite far from the body, (n,); its normals, zero
@@ -81,8 +90,15 @@ class ContactField:
         return np.append(np.einsum("ij,ij->i", self.points, self.normals), -np.inf)
 
 
-def _borrow_planes(plane: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Give the voxels within two layers of a plane the plane of the nearest voxel that has one."""
-    distance, nearest = ndimage.distance_transform_edt(plane < 0, return_indices=True)
-    borrowed = plane[tuple(nearest)]
-    return np.where(distance <= 2.0, borrowed, -1).astype(np.int32)
+def _shell(plane: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Which voxels lie within two layers of those that have a plane and have none themselves."""
+    distance = ndimage.distance_transform_edt(plane < 0)
+    return (distance > 0.0) & (distance <= 2.0)
+
+
+def _tangent_planes(mesh: TriangleMesh, centres: Floats) -> tuple[Floats, Floats]:
+    """The point of the surface nearest to each of ``centres`` [m], and the unit normal there, (k, 3) each."""
+    nearest, _ = Locator(mesh.vertices, mesh.faces).nearest(centres)
+    normals = nearest.blend(mesh.vertex_normals, mesh.faces)
+    length = np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    return nearest.blend(mesh.vertices, mesh.faces), normals / length

@@ -18,6 +18,19 @@ _SLIDING_DISTANCE = 0.006
 
 
 @dataclass(frozen=True, eq=False)
+class Planes:
+    """The body as n particles see it, in the head frame.
+
+    distance: d to the nearest plane of head or torso [m], infinite far from both, (n,). normals: its unit normal, zero far
+    from both, and velocity: that of the body there [m/s], (n, 3).
+    """
+
+    distance: Floats
+    normals: Floats
+    velocity: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class Body:
     """Contact planes of the head, which stand still in the head frame, and of the torso, which turns against it."""
 
@@ -35,16 +48,15 @@ class Body:
             ContactField.around(lower, voxel) if len(lower.faces) else None,
         )
 
-    def planes(self, positions: Floats, frame: HeadFrame | None = None) -> tuple[Floats, Floats, Floats]:
-        """Nearest plane of either body: distance d [m], (n,), its unit normal and the velocity of the body there [m/s].
+    def planes(self, positions: Floats, frame: HeadFrame | None = None) -> Planes:
+        """The nearest plane of either body. positions: head frame [m], (n, 3).
 
-        positions: in the head frame [m], (n, 3); so are the answers. frame: how far the head has turned on the torso, and
-        how fast; None at rest.
+        frame: how far the head has turned on the torso, and how fast; None at rest.
         """
         distance, normals = self.head.at(positions)
         velocity = np.zeros_like(positions)
         if self.torso is None:
-            return distance, normals, velocity
+            return Planes(distance, normals, velocity)
         if frame is None:
             torso_distance, torso_normals = self.torso.at(positions)
         else:
@@ -56,15 +68,16 @@ class Body:
         if frame is not None:
             spin = frame.angular_velocity @ frame.axes
             velocity[nearer] = positions[nearer] @ cross_matrix(spin)
-        return distance, normals, velocity
+        return Planes(distance, normals, velocity)
 
     def clearance(self, positions: Floats) -> Floats:
         """Distance d to the nearest plane at rest [m], infinite far from the body, (n,)."""
-        return self.planes(positions)[0]
+        return self.planes(positions).distance
 
     def slide(self, positions: Floats, directions: Floats) -> Floats:
         """Unit ``directions`` turned so that they do not lead into the body from ``positions`` [m], both (n, 3)."""
-        distance, normals, _ = self.planes(positions)
+        planes = self.planes(positions)
+        distance, normals = planes.distance, planes.normals
         inward = np.einsum("ij,ij->i", directions, normals)
         # Below the sliding distance a direction must lead out again, the more the deeper it is.
         wanted = np.clip((_SLIDING_DISTANCE - distance) / _SLIDING_DISTANCE, 0.0, 1.0) * 0.5

@@ -46,11 +46,11 @@ class Touching:
 
 def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) -> Touching:
     """Where the body is, seen from every particle (eq. 3.19). positions: head frame [m], (n, 3)."""
-    distance, normals, velocity = body.planes(positions, frame)
+    planes = body.planes(positions, frame)
     thickness = _THICKNESS * model.spacing
     begins = (model.arc_length < _BEGINNING * model.spacing) | (model.rest_clearance < 0)
     keep = np.where(begins, np.minimum(thickness, model.rest_clearance), thickness)
-    return Touching(distance, normals, velocity, keep)
+    return Touching(planes.distance, planes.normals, planes.velocity, keep)
 
 
 def stop_at_body(

@@ -32,9 +32,9 @@ def spread(
     farthest = _FARTHEST * np.maximum(arc_length, 0.0)
     for _ in range(_ROUNDS):
         moved = positions + _YIELD * _way_out(positions, directions, room)
-        distance, normals, _ = body.planes(moved)
-        lack = np.where(np.isfinite(distance), np.maximum(clearance - distance, 0.0), 0.0)
-        moved = moved + lack[:, None] * normals
+        planes = body.planes(moved)
+        lack = np.where(np.isfinite(planes.distance), np.maximum(clearance - planes.distance, 0.0), 0.0)
+        moved = moved + lack[:, None] * planes.normals
         offset = moved - start
         length = np.linalg.norm(offset, axis=1)
         moved = start + np.minimum(1.0, farthest / np.maximum(length, 1e-12))[:, None] * offset

@@ -199,8 +199,8 @@ class Wind:
 
     def _plane(self, positions: Floats, frame: HeadFrame) -> tuple[Floats, Floats]:
         """Distance of the nearest contact plane [m], infinite far from the body, (k,), and its normal, (k, 3), in the world."""
-        distance, normals, _ = self.body.planes(frame.to_head(positions), frame)
-        return distance, frame.rotation.apply(normals)
+        planes = self.body.planes(frame.to_head(positions), frame)
+        return planes.distance, frame.rotation.apply(planes.normals)
 
     def exchange(
         self, air: Floats, air_velocities: Floats, hair: Floats, hair_velocities: Floats, drag: float, dt: float

@@ -68,9 +68,10 @@ def _directions(hair: HairOnStage, frame: HeadFrame) -> _Marks:
 
 def _planes(hair: HairOnStage, body: Body, frame: HeadFrame) -> _Marks:
     """A square on the plane (thesis, eq. 3.19) below every particle that touches it or nearly does."""
-    distance, normals, _ = body.planes(hair.positions, frame)
-    near = np.abs(distance) < hair.model.spacing
-    normal, foot = normals[near], hair.positions[near] - distance[near, None] * normals[near]
+    planes = body.planes(hair.positions, frame)
+    near = np.abs(planes.distance) < hair.model.spacing
+    normal = planes.normals[near]
+    foot = hair.positions[near] - planes.distance[near, None] * normal
     # Any direction along the plane: across the axis that the normal is farthest from.
     along = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal), axis=1)])
     along *= _PLANE_SIZE * hair.model.spacing / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-12)
