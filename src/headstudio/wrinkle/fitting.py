@@ -19,7 +19,7 @@ from .valley_lines import ValleyLine, valley_lines
 from .valleys import valley_field
 
 # A change of shape is smooth over this [m]. Below this much of it beside the grooves [m], scan and skin count as one shape.
-_SMOOTH, _SAME_SHAPE = 0.014, 2.5e-4
+_SMOOTH, _SAME_SHAPE = 0.014, 6e-4
 # A groove and its rims lie within so many widths.
 _FOOT = 4.0
 # A valley stands out when it is so many times the noise deep, this deep [m] and this part of the deepest.
