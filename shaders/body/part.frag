@@ -81,11 +81,14 @@ void main() {
         strength = 0.05;
     }
     float n_l = clamp((dot(n, l) + 0.15) / 1.15, 0.0, 1.0);
-    vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * open;
-    float shine = pow(max(dot(n, normalize(l + to_eye)), 0.0), gloss) * strength * lit;
+    // The deeper in the mouth, the more of its light has been on red walls.
+    bool in_mouth = kind == 1 || kind == 2;
+    vec3 reached = in_mouth ? pow(vec3(open), vec3(1.0, 1.5, 1.6)) : vec3(open);
+    vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * reached;
+    float shine = pow(max(dot(n, normalize(l + to_eye)), 0.0), gloss) * strength * lit * (in_mouth ? open : 1.0);
     // A wet eye mirrors the bright sky, more towards its rim.
     float wet = kind == 0 ? 0.03 + 0.35 * pow(1.0 - max(dot(n, to_eye), 0.0), 5.0) : 0.0;
     vec3 mirrored = sky.rgb * smoothstep(0.35, 0.75, reflect(-to_eye, n).y) * 2.0 * wet * open;
-    vec3 shown = albedo * (radiance.rgb * n_l * lit * (kind == 1 || kind == 2 ? open : mix(0.35, 1.0, open)) + soft) + radiance.rgb * shine + mirrored;
+    vec3 shown = albedo * (radiance.rgb * n_l * lit * (in_mouth ? reached : vec3(mix(0.35, 1.0, open))) + soft) + radiance.rgb * shine + mirrored;
     colour = vec4(shown * alpha, alpha);
 }

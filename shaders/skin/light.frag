@@ -76,7 +76,9 @@ void main() {
     around = kept_apart ? vec3(max(smooth_n_l, 0.0)) : max(around, wrapped * wrapped);
     vec3 softer = kept_apart ? vec3(0.0) : softened * min(scattering, 1.0);
     vec3 bumped = (max(n_l, 0.0) - max(smooth_n_l, 0.0)) * (1.0 - softer);
-    vec3 diffuse = max(around + bumped, 0.0) * soft_lit * mix(1.0, open, 0.35);
+    // What sees next to nothing of the sky sees no lamp either, but what red walls send on.
+    vec3 reached = pow(vec3(smoothstep(0.0, 0.05, open)), vec3(1.0, 1.5, 1.6));
+    vec3 diffuse = max(around + bumped, 0.0) * soft_lit * mix(1.0, open, 0.35) * reached;
 
     // Light bounces between nearby skin: cavities go red-brown before they go black.
     vec3 open_tint = open * (1.0 + vec3(0.30, -0.05, -0.14) * (1.0 - open));

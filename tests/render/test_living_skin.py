@@ -15,7 +15,7 @@ from headstudio.head.mesh import TriangleMesh
 from headstudio.params import assign
 from headstudio.render.fine_relief import FineRelief
 from headstudio.render.renderer import Renderer
-from headstudio.render.skin_shape import curvature_of, faded_in, hidden_in_creases, neighbours_together
+from headstudio.render.skin_shape import curvature_of, faded_in, hidden_in_creases, hidden_in_mouth, neighbours_together
 from headstudio.render.skin_values import scale_colours, shown_values
 from headstudio.scene.builder import Builder
 from headstudio.scene.document import Document
@@ -246,3 +246,10 @@ def test_a_limb_is_drawn_with_its_fine_wrinkles(camera_man: Renderer) -> None:
         camera_man.render_limb(posed, RAKING, camera, SIZE, skin=settings)
         pictures.append(camera_man.read_pixels().astype(int))
     assert roughness(pictures[0].astype(np.uint8)) > 2 * roughness(pictures[1].astype(np.uint8))
+
+
+def test_a_mouth_darkens_with_depth_and_lips_keep_their_light() -> None:
+    hidden = hidden_in_mouth(np.linspace(0.0, 0.02, 50))
+    assert hidden[0] == 0.0
+    assert (np.diff(hidden) >= 0).all()
+    assert 0.9 < hidden[-1] < 1.0

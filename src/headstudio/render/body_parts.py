@@ -18,6 +18,7 @@ from .sky import hidden_from_sky
 
 # How part.frag tells the parts apart.
 _KINDS = {"eye": 0, "teeth": 1, "tongue": 2, "lashes": 3, "brows": 3, "other": 4}
+_IN_MOUTH = ("teeth", "tongue")
 
 
 def hidden_of_head(context: moderngl.Context, head: Head) -> tuple[Floats, list[Floats]]:
@@ -28,9 +29,8 @@ def hidden_of_head(context: moderngl.Context, head: Head) -> tuple[Floats, list[
     hidden = hidden_from_sky(context, head.skin, points, normals)
     skin, *parts = np.split(hidden, np.cumsum([len(mesh.vertices) for mesh in meshes])[:-1])
     # Behind lips at rest all would be dark; what shows of a mouth shows because it is open.
-    return skin, [
-        mouth_light(part) if part.kind in ("teeth", "tongue") else own for part, own in zip(head.parts, parts)
-    ]
+    front = max((part.mesh.bounds[1, 2] for part in head.parts if part.kind in _IN_MOUTH), default=0.0)
+    return skin, [mouth_light(part, front) if part.kind in _IN_MOUTH else own for part, own in zip(head.parts, parts)]
 
 
 class BodyParts:

@@ -15,7 +15,7 @@ from ..lcp.model import HairModel
 # From the edge of a tooth to where its gum begins [m].
 _CROWN = (0.0085, 0.0105)
 # So far behind the front teeth a mouth is dark [m].
-_MOUTH_DEPTH = 0.018
+_MOUTH_DEPTH = 0.022
 # Skin nearer than this to a root [m] is covered, and bare beyond the second.
 _SCALP_REACH = (0.006, 0.016)
 
@@ -70,9 +70,12 @@ def gums(teeth: TriangleMesh, upper: bool) -> Floats:
     return _smoothstep(*_CROWN, beyond)
 
 
-def mouth_light(part: Part) -> Floats:
-    """How much of the sky a part of the mouth never sees, however far it opens: more from front to back, (n,)."""
-    behind = part.mesh.bounds[1, 2] - part.mesh.vertices[:, 2]
+def mouth_light(part: Part, front: float) -> Floats:
+    """How much of the sky a part of the mouth never sees, however far it opens: more from front to back, (n,).
+
+    front: where the foremost teeth are, along z [m].
+    """
+    behind = front - part.mesh.vertices[:, 2]
     return 0.3 + 0.67 * np.clip(behind / _MOUTH_DEPTH, 0.0, 1.0)
 
 

@@ -25,6 +25,10 @@ BLOOD_MEAN = 0.35
 _SHADOW_DETAIL = 0.004
 # What counts as the surroundings of a place in a furrow [m].
 _BESIDE = 0.003
+# Lips keep their light as far as this behind where they meet, and a mouth is dark beyond the second [m].
+_LIP, _DARK_MOUTH = 0.0005, 0.007
+# Some light comes back from the walls of the deepest mouth.
+_DARKEST = 0.98
 # Fine wrinkles fade out over this much of the skin at the border of their map [m].
 _FADE = 0.015
 # Blotches of blood under the skin: sizes [m], how many waves of each, and how deep they are.
@@ -62,7 +66,8 @@ class SkinShape:
 @dataclass(frozen=True, eq=False)
 class SkinPose:
     """A skin at one instant. positions [m] and unit normals, (N, 3). amplitudes: of both fine fields, (N, 2). hidden: by
-    the walls of furrows, 0 to 1, (N,). value: of what the look shows on the skin, else of its expansion, 0 to 1, (N,)."""
+    the walls of furrows or of the mouth, 0 to 1, (N,). value: of what the look shows on the skin, else of its expansion,
+    0 to 1, (N,)."""
 
     positions: Floats
     normals: Floats
@@ -114,7 +119,7 @@ def limb_shape_of(skin: LimbSkin, hidden: Floats) -> SkinShape:
 
 def pose_of(skin: LivingSkin, shows: str) -> SkinPose:
     """A living skin as it is drawn; ``shows`` is ``Look.skin_shows``."""
-    hidden = hidden_in_creases(skin.skin.height)
+    hidden = np.maximum(hidden_in_creases(skin.skin.height), skin.surface.spread(hidden_in_mouth(skin.drawn_in)))
     return SkinPose(skin.skin.positions, skin.skin.normals, skin.amplitudes, hidden, shown_values(shows, skin))
 
 
@@ -123,8 +128,8 @@ def smooth_pose_of(skin: LivingSkin, shows: str) -> SkinPose:
     surface = skin.surface
     normals = surface.spread(surface.head.skin.moved(skin.posed).vertex_normals)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    none = np.zeros(len(normals))
-    return SkinPose(surface.spread(skin.posed), normals, np.zeros((len(normals), 2)), none, shown_values(shows, skin))
+    hidden = surface.spread(hidden_in_mouth(skin.drawn_in))
+    return SkinPose(surface.spread(skin.posed), normals, np.zeros((len(normals), 2)), hidden, shown_values(shows, skin))
 
 
 def limb_pose_of(limb: PosedLimb, shows: str) -> SkinPose:
@@ -198,6 +203,13 @@ def curvature_of(mesh: TriangleMesh) -> Floats:
     for _ in range(_EVENED):
         curvature = 0.5 * (curvature + (neighbours @ curvature) / degree)
     return curvature
+
+
+def hidden_in_mouth(depth: Floats) -> Floats:
+    """How much of the light misses skin that lines an open mouth, 0 to 1, (n,). depth: behind the lips [m], (n,)."""
+    seen = 1.0 - np.clip((depth - _LIP) / (_DARK_MOUTH - _LIP), 0.0, 1.0)
+    hidden: Floats = _DARKEST * (1.0 - seen**3)
+    return hidden
 
 
 def hidden_in_creases(height: Floats) -> Floats:

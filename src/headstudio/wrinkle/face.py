@@ -32,10 +32,11 @@ _SHOWN = {**EXPRESSIONS, "blink": BLINK}
 @dataclass(frozen=True, eq=False)
 class FacePose:
     """A face at one instant. positions: of every vertex of the skin [m], (n, 3). parts: those of the head, moved; a part
-    that rests is the head's own object."""
+    that rests is the head's own object. drawn_in: how far each vertex has gone behind the lips of an open mouth [m], (n,)."""
 
     positions: Floats
     parts: tuple[Part, ...]
+    drawn_in: Floats
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ class Face:
             if (strength := settings.strength(name, side)) > 0
         }
         if not strengths and settings.jaw_open == 0:
-            return FacePose(self._rest, self.head.parts)
+            return FacePose(self._rest, self.head.parts, self._jaw.drawn_in(0.0))
         drive = self._drive(strengths, settings.jaw_open)
         positions = self._rest + (
             self._fields @ self._activity(strengths, self._share_of_units(settings.driver))
@@ -117,7 +118,8 @@ class Face:
             positions = self._tissue.lifted(positions, lift * thickness)
         for lids in self._lids.values():
             positions[lids.vertices] = lids.cleared(positions[lids.vertices])
-        return FacePose(positions, tuple(self._posed_part(k, positions, drive) for k in range(len(self.head.parts))))
+        parts = tuple(self._posed_part(k, positions, drive) for k in range(len(self.head.parts)))
+        return FacePose(positions, parts, self._jaw.drawn_in(drive.jaw))
 
     def posed_head(self, pose: FacePose) -> Head:
         """The head with the skin and parts of a pose."""

@@ -45,6 +45,8 @@ _LIP_MIDDLE = 0.6
 _HIDDEN = 0.0008
 # Skin stretched between the lips goes back by this part of how far they part.
 _HOLLOW = 0.8
+# So many times how deep the mouth is, is evened out along edges.
+_EVENED = 10
 # Keeps pieces of the skin that touch neither bone where they are.
 _LOOSE = 1e-9
 
@@ -59,7 +61,8 @@ class Jaw:
     hinge: a point on its axis, shape (3,) [m]. axis: unit direction of the axis to the person's left, shape (3,). glide:
     how far the joint moves per radian, shape (3,) [m]. weight: share of the turn that every vertex of the skin takes, 0
     to 1, shape (n,). hollow: how far back skin between the lips goes per radian, shape (n,) [m]: what is stretched
-    between them in a mouth that is only a groove is the inside of the mouth.
+    between them in a mouth that is only a groove is the inside of the mouth. inside: the same evened out along edges, (n,)
+    [m]: triangles there are stretched into spikes, and shade must not show them.
     """
 
     hinge: Floats
@@ -67,11 +70,16 @@ class Jaw:
     glide: Floats
     weight: Floats
     hollow: Floats
+    inside: Floats
 
     def opened(self, vertices: Ints, points: Floats, angle: float) -> Floats:
         """The skin's ``vertices``, (k,), which are now at ``points``, (k, 3), with the jaw open by ``angle`` [rad]."""
         back = self.glide / np.linalg.norm(self.glide)
         return self.turned(points, self.weight[vertices], angle) - (angle * self.hollow[vertices])[:, None] * back
+
+    def drawn_in(self, angle: float) -> Floats:
+        """How far behind the lips every vertex of the skin has gone with the jaw open by ``angle`` [rad]: [m], (n,)."""
+        return angle * self.inside
 
     def turned(self, points: Floats, weight: Floats, angle: float) -> Floats:
         """Points, (k, 3), turned open by ``angle`` [rad] times their weight, (k,)."""
@@ -91,7 +99,8 @@ def find_jaw(head: Head) -> Jaw:
     hinge = 0.5 * (marks.left_tragus + marks.right_tragus) + _HINGE_FORWARD * height * forward
     glide = _GLIDE * height * forward
     weight = _spread(head.skin, *_carried(head, hinge, axis))
-    return Jaw(hinge, axis, glide, weight, _hollow(head, hinge, weight))
+    hollow = _hollow(head, hinge, weight)
+    return Jaw(hinge, axis, glide, weight, hollow, _evened(head.skin, hollow))
 
 
 def lip_seam(skin: TriangleMesh, marks: Landmarks) -> Floats:
@@ -168,6 +177,15 @@ def _hollow(head: Head, hinge: Floats, weight: Floats) -> Floats:
     lever = float(np.linalg.norm(middle - hinge))
     hollow: Floats = _HOLLOW * lever * between * (1.0 - beside**2) ** 2 * (1.0 - over**4)
     return hollow
+
+
+def _evened(skin: TriangleMesh, values: Floats) -> Floats:
+    """Values at the vertices, (n,), each time the mean of their own and that of their neighbours."""
+    neighbours = igl.adjacency_matrix(skin.faces)
+    degree = np.maximum(np.asarray(neighbours.sum(axis=1)).ravel(), 1)
+    for _ in range(_EVENED):
+        values = 0.5 * (values + (neighbours @ values) / degree)
+    return values
 
 
 def _spread(skin: TriangleMesh, skull: Mask, jawbone: Mask) -> Floats:

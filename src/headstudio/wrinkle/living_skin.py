@@ -82,7 +82,8 @@ class LivingSkin:
 
     surface: what it has in common with every other instant. skin: positions, normals and displacement of the refined
     skin. parts: of the head, moved; one that rests is the head's own object. amplitudes: of both fine fields at the
-    vertices of the refined skin, (N, 2). posed: the head's own vertices before they wrinkle [m], (n, 3).
+    vertices of the refined skin, (N, 2). posed: the head's own vertices before they wrinkle [m], (n, 3). drawn_in: how far
+    these have gone behind the lips of an open mouth [m], (n,).
     """
 
     surface: SkinSurface
@@ -90,6 +91,7 @@ class LivingSkin:
     parts: tuple[Part, ...]
     amplitudes: Floats
     posed: Floats
+    drawn_in: Floats
     face: Face
 
     @cached_property
@@ -118,7 +120,7 @@ class Skin:
         if self.surface.fine is not None:
             amplitudes[part] = self.surface.fine.amplitudes(pose.positions[part])
         spread = self.surface.spread(amplitudes)
-        return LivingSkin(self.surface, skin, pose.parts, spread, pose.positions, self.face)
+        return LivingSkin(self.surface, skin, pose.parts, spread, pose.positions, pose.drawn_in, self.face)
 
     def _tissue(self, settings: FaceSettings) -> Floats:
         """Thickness of the tissue under every vertex at rest [m], (n,); found again only when it changes."""
