@@ -62,19 +62,23 @@ def stop_at_body(
     (Coulomb, coefficient ``friction``) slow down the tangential one, and what is below the surface comes out (3.24). Hair
     that lies on the body is held by the first two again in the next step; hair that has just hit it is not.
     """
-    relative = velocities - touch.velocity
-    approach = np.einsum("ij,ij->i", relative, touch.normals)
+    approach = np.einsum("ij,ij->i", velocities - touch.velocity, touch.normals)
     # What is still free to go before the particle touches. Eq. 3.21 is the limit of a small step.
     allowed = -np.maximum(distance - touch.keep, 0.0) / dt
     depth = np.maximum(np.minimum(touch.keep, 0.0) - distance, 0.0)
     impulse = np.maximum(allowed - approach, 0.0)
     emerging = np.maximum(depth / max(_EMERGENCE, dt) - np.maximum(approach, 0.0), 0.0)
-    sliding = relative - approach[:, None] * touch.normals
+    meets = np.flatnonzero(impulse + emerging > 0)
+    normals, impulse = touch.normals.take(meets, axis=0), impulse[meets]
+    sliding = velocities.take(meets, axis=0) - touch.velocity.take(meets, axis=0) - approach[meets, None] * normals
     speed = np.sqrt(np.einsum("ij,ij->i", sliding, sliding))
     braked = np.minimum(friction * impulse, speed) / np.maximum(speed, 1e-12)
-    held = impulse[:, None] * touch.normals - braked[:, None] * sliding
-    lies = distance <= touch.keep + _RESTING
-    return velocities + held + emerging[:, None] * touch.normals, np.where(lies[:, None], held, 0.0)
+    held = impulse[:, None] * normals - braked[:, None] * sliding
+    stopped, lasting = velocities.copy(), np.zeros_like(velocities)
+    stopped[meets] += held + emerging[meets, None] * normals
+    lies = distance[meets] <= touch.keep[meets] + _RESTING
+    lasting[meets[lies]] = held[lies]
+    return stopped, lasting
 
 
 def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Floats) -> Floats:
@@ -82,11 +86,16 @@ def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Flo
 
     None is deeper than ``_DEEPEST`` below its plane, then none further from its root than ``_LAST_REACH`` times its length.
     """
-    excess = np.maximum(np.minimum(touch.keep, 0.0) - _DEEPEST - distance, 0.0)
-    from_root = positions + excess[:, None] * touch.normals - model.root_points
+    back = positions.copy()
+    deep = np.flatnonzero((np.minimum(touch.keep, 0.0) - _DEEPEST > distance) & ~model.fixed)
+    excess = np.minimum(touch.keep[deep], 0.0) - _DEEPEST - distance[deep]
+    back[deep] += excess[:, None] * touch.normals[deep]
+    from_root = back - model.root_points
     reach = np.sqrt(np.einsum("ij,ij->i", from_root, from_root))
-    share = np.minimum(1.0, _LAST_REACH * model.arc_length / np.maximum(reach, 1e-12))
-    return np.where(model.fixed[:, None], positions, model.root_points + share[:, None] * from_root)
+    far = np.flatnonzero((reach > _LAST_REACH * model.arc_length) & ~model.fixed)
+    share = _LAST_REACH * model.arc_length[far] / reach[far]
+    back[far] = model.root_points[far] + share[:, None] * from_root[far]
+    return back
 
 
 class Tethers:
@@ -131,11 +140,14 @@ def stop_at_reach(
     """
     ahead = positions + dt * velocities - model.root_points
     reach = np.sqrt(np.einsum("ij,ij->i", ahead, ahead))
-    over = np.where(model.fixed, 0.0, np.maximum(reach - LONGEST_REACH * np.maximum(model.arc_length, 0.0), 0.0))
-    back = -ahead / np.maximum(reach, 1e-12)[:, None]
-    inward = np.einsum("ij,ij->i", back, touch.normals)
-    touches = (distance <= touch.keep) & (inward < 0)
-    along = back - np.where(touches, inward, 0.0)[:, None] * touch.normals
+    far = np.flatnonzero((reach > LONGEST_REACH * model.arc_length) & ~model.fixed)
+    over = reach[far] - LONGEST_REACH * np.maximum(model.arc_length[far], 0.0)
+    back, normals = -ahead[far] / reach[far, None], touch.normals[far]
+    inward = np.einsum("ij,ij->i", back, normals)
+    touches = (distance[far] <= touch.keep[far]) & (inward < 0)
+    along = back - np.where(touches, inward, 0.0)[:, None] * normals
     # Going along the body brings less per way than the straight one: |along|^2 of it.
     gain = np.maximum(np.einsum("ij,ij->i", along, along), _STEEPEST**2)
-    return velocities + (over / (dt * gain))[:, None] * along
+    stopped = velocities.copy()
+    stopped[far] += (over / (dt * gain))[:, None] * along
+    return stopped
