@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from headstudio.commands.documents import choose_view
+from headstudio.commands.demo import seen_and_lit
 from headstudio.commands.pictures import Photographer
 from headstudio.io.contact_sheet import contact_sheet
 from headstudio.params import assign
@@ -58,7 +58,7 @@ def _views(name: str, head: str, builder: Builder, photographer: Photographer) -
     document = load_style(name).on(assign(Document(), shown))
     document = replace(document, camera=replace(document.camera, distance=0.93, target_y=-0.015))
     stage = Animation(builder, document, STRANDS).stage()
-    return np.concatenate([photographer.still(stage, choose_view(document, view), SIZE) for view in VIEWS], axis=1)
+    return np.concatenate([photographer.still(stage, seen_and_lit(document, view), SIZE) for view in VIEWS], axis=1)
 
 
 if __name__ == "__main__":

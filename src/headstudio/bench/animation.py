@@ -94,7 +94,9 @@ def animation_cost(
     for _ in range(frames):
         costs.append(animate())
         stages.append(dict(simulation.timings))
-    steps, searches = neighbours.questions - questions, neighbours.searches - searches
+    # The paper searches once for every integration; here an internal step is integrated in parts.
+    integrations = (neighbours.questions - questions) * simulation.integrations_per_step
+    searches = neighbours.searches - searches
     listed = sum(stage.get("neighbours", 0.0) for stage in stages)
     simulation_ms, picture_ms = (median(cost) for cost in zip(*costs, strict=True))
     return AnimationCost(
@@ -108,9 +110,9 @@ def animation_cost(
         neighbours=neighbour_cost(
             simulation.state.positions,
             neighbours.radius,
-            listed / max(steps, 1),
+            listed / max(integrations, 1),
             searches,
-            steps,
+            integrations,
         ),
     )
 

@@ -19,9 +19,9 @@ REPEATS = 7
 class NeighbourCost:
     """Milliseconds, medians. pairs: how many lie within the radius.
 
-    kdtree_ms: building a cKDTree and asking it for all pairs, as every step would without a list. search_ms: one search
-    of the grid. step_ms: what the list costs an internal step on average, the search being needed only now and then.
-    searches, steps: how often it was, during the animation that was measured.
+    kdtree_ms: building a cKDTree and asking it for all pairs, as every integration would without a list. search_ms: one
+    search of the grid. step_ms: what the list costs an integration of the equations of motion on average. searches,
+    steps: how many searches and integrations there were in the animation that was measured.
     """
 
     pairs: int

@@ -181,7 +181,7 @@ def _table(costs: list[AnimationCost]) -> Table:
     table.add_section()
     row("cKDTree.query_pairs, once, ms", [f"{cost.neighbours.kdtree_ms:.2f}" for cost in costs])
     row("grid, one search, ms", [f"{cost.neighbours.search_ms:.2f}" for cost in costs])
-    row("list, an internal step, ms", [f"{cost.neighbours.step_ms:.2f}" for cost in costs])
+    row("list, an integration, ms", [f"{cost.neighbours.step_ms:.2f}" for cost in costs])
     row("list over cKDTree", [f"{cost.neighbours.part_of_kdtree:.2f}" for cost in costs])
-    row("searches in steps", [f"{cost.neighbours.searches} in {cost.neighbours.steps}" for cost in costs])
+    row("searches in integrations", [f"{cost.neighbours.searches} in {cost.neighbours.steps}" for cost in costs])
     return table

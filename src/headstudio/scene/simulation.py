@@ -70,6 +70,11 @@ class Simulation:
         """The solver in use, for reports."""
         return "leapfrog" if self.reference else "implicit"
 
+    @property
+    def integrations_per_step(self) -> int:
+        """How often the real-time solver integrates the equations of motion in an internal step; 0 for the reference."""
+        return self.solver.parts if isinstance(self.solver, ImplicitSolver) else 0
+
     def reset(self) -> None:
         """Back to the initial state at time 0, with the head at rest and no air."""
         self.state = HairState.at_rest(self.built.hair)
