@@ -146,7 +146,12 @@ def test_ctrl_c_says_cancelled_with_status_130(tmp_path):
     running = subprocess.Popen([*words, "mannequin"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     time.sleep(1.5)
     running.send_signal(signal.SIGINT)
-    _, complaint = running.communicate(timeout=60)
+    try:
+        _, complaint = running.communicate(timeout=30)
+    except subprocess.TimeoutExpired:
+        # On a busy machine the first came so early that Python was still loading: a person would press again.
+        running.send_signal(signal.SIGINT)
+        _, complaint = running.communicate(timeout=60)
     assert running.returncode == 130
     assert complaint.strip().splitlines()[-1:] in ([], ["headstudio: cancelled"])
 

@@ -210,8 +210,9 @@ def _member_strands(
         even = _even_numbers([wisp.seed, 5, block], len(own))
         offsets = displacements(masters.radii[own].T, first, wisp.fuzziness, even)
         grown = member_points(masters, cuts, own, offsets, lengths[here])
-        outside = surroundings.keep_outside(grown.reshape(-1, 3), _CLEARANCE).reshape(grown.shape)
-        points[here] = cut_strands(outside, own, blades)
+        # Last of all, since what is cut is drawn anew with straight ways between fewer places.
+        cut = cut_strands(grown, own, blades)
+        points[here] = surroundings.keep_outside(cut.reshape(-1, 3), _CLEARANCE).reshape(cut.shape)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(grow, range(-(-len(owner) // _BLOCK))))
