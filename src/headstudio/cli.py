@@ -219,12 +219,17 @@ def style(
     operations: Annotated[
         Path | None, typer.Option("--operations", help="A JSON file of operations and cuts, as in a project.")
     ] = None,
+    prototype: Annotated[
+        Path | None,
+        typer.Option("--prototype", help="A hair file, whose strand of middle length all strands resemble."),
+    ] = None,
     head: HeadOption = None,
     seed: SeedOption = None,
     set_: SetOption = None,
 ) -> None:
     """Style hair from wisps: a picture, a project or the strands themselves."""
     from .commands.documents import choose_view, head_source, open_document
+    from .commands.hair_sources import with_prototype
     from .commands.operations import with_operations
     from .commands.pictures import parse_size
     from .commands.style import style
@@ -239,6 +244,8 @@ def style(
         wisp_seed=seed,
     )
     document = with_operations(document, operation or (), operations)
+    if prototype is not None:
+        document = with_prototype(document, prototype)
     style(choose_view(document, view), out, parse_size(size), points)
 
 

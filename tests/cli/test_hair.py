@@ -79,3 +79,13 @@ def test_what_cannot_be_is_one_line_and_status_2(headstudio, words, complaint):
     assert said.status == 2
     assert complaint in said.complaint
     assert len(said.complaint.strip().splitlines()) == 1
+
+
+def test_a_strand_of_a_file_is_the_prototype(headstudio, tmp_path):
+    headstudio("export", "tight-curls", str(tmp_path / "curls.hair"), *FEW)
+    out = tmp_path / "like.headstudio"
+    headstudio("style", "--prototype", str(tmp_path / "curls.hair"), *FEW, "--out", str(out))
+    curve = np.array(load_project(out).document.wisp.prototype_curve)
+    own = read_strands(tmp_path / "curls.hair").lengths
+    assert np.linalg.norm(np.diff(curve, axis=0), axis=1).sum() == pytest.approx(np.median(own), rel=0.1)
+    assert headstudio("style", "--prototype", str(out), *FEW).status == 2

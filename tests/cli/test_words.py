@@ -57,6 +57,8 @@ def test_every_command_has_help(headstudio, command):
         (("render", "--set", "lcp.gravity=1e9"), "lcp.gravity goes from 0 to 30"),
         (("render", "--set", "gravity"), "--set takes NAME=VALUE"),
         (("render", "--size", "wide"), "512 or 640x480"),
+        (("render", "--size", "0"), "1 to 16384 pixels"),
+        (("render", "--size", "512x100000"), "1 to 16384 pixels"),
         (("render", "--view", "inside"), "a view is one of"),
         (("render", "--out", "picture.jpg", *SMALL), "ends in .png"),
         (("render", "--head", "nobody.obj"), "nobody.obj"),

@@ -23,6 +23,7 @@ def test_a_link_stays_a_link(tmp_path):
 
 
 def test_a_folder_that_is_not_there_is_an_error(tmp_path):
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError) as caught:
         write_atomically(tmp_path / "nowhere" / "file", b"")
+    assert caught.value.filename == str(tmp_path / "nowhere" / "file")
     assert list(tmp_path.iterdir()) == []

@@ -11,9 +11,9 @@ from headstudio.lcp.wind import AirState
 from headstudio.params import assign
 from headstudio.scene.builder import Builder
 from headstudio.scene.document import Document
-from headstudio.scene.overlays import NOTHING, overlays_of
+from headstudio.scene.overlays import overlays_of
 from headstudio.scene.settings import Look
-from headstudio.scene.stage import HairOnStage
+from headstudio.scene.stage import NO_OVERLAYS, HairOnStage
 
 FRAME = HeadFrame(Rotation.from_euler("y", 0.4), np.array([0.1, 0.0, 0.0]))
 NO_AIR = AirState(np.zeros((0, 3)), np.zeros((0, 3)))
@@ -30,7 +30,7 @@ def hair(built):
 
 
 def test_nothing_asked_for_is_always_the_same_nothing(built, hair):
-    assert overlays_of(Look(), hair, built.body, FRAME, NO_AIR) is NOTHING
+    assert overlays_of(Look(), hair, built.body, FRAME, NO_AIR) is NO_OVERLAYS
 
 
 def test_a_spring_is_red_when_stretched_and_blue_when_compressed(built, hair):

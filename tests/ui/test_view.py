@@ -126,3 +126,23 @@ def test_pan_follows_the_mouse_and_zoom_stays_in_range():
     assert moved.project(centre)[0] == pytest.approx(view.project(centre)[0] + [100, -50], abs=1e-6)
     assert navigation.zoom(camera, 500).distance == pytest.approx(0.05)
     assert navigation.orbit(camera, 0, 50).elevation == pytest.approx(math.radians(89))
+
+
+def test_what_stands_still_is_drawn_in_full_and_not_again_while_time_runs(driver):
+    studio, viewport = driver.studio, driver.app.viewport
+    studio.work.hair_as = "none"
+    driver.built()
+    viewport._resolution = 2
+    studio.playback.playing = True
+    driver.frames(2)
+    studio.set("motion.kind", "nod", "Nod")
+    driver.frames(3)
+    moving = viewport._drawn
+    assert moving.size[0] <= 0.5 * viewport.rect.width * driver.app.window.pixels_per_unit
+    studio.set("motion.kind", "rest", "Rest")
+    driver.frames(150)
+    still = viewport._drawn
+    assert still.size[0] >= 2 * moving.size[0]
+    driver.frames(10)
+    assert viewport._drawn is still
+    assert studio.playback.playing

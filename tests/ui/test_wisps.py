@@ -9,11 +9,13 @@ from imgui_bundle import imgui
 
 from headstudio.app.application import EDITORS
 from headstudio.head.scalp_settings import GrayImage
+from headstudio.io.hair import read_strands
 from headstudio.params import assign
 from headstudio.scene.styles import PARTS, load_style
 from headstudio.wisp.maps import length_map
 from headstudio.wisp.operations import Constrain, Tie, ToPoint
 from headstudio.wisp.proportions import Proportions
+from headstudio.wisp.sample_strand import sample_strand
 from headstudio.wisp.selection import Selection
 
 CTRL, SHIFT = imgui.Key.mod_ctrl, imgui.Key.mod_shift
@@ -397,3 +399,24 @@ def test_lengths_of_loose_hair_are_painted_too(driver):
     assert driver.studio.document.scalp.painted_lengths is not None
     assert entries(driver) == 1
     driver.click("Tools/Shake")
+
+
+def test_hair_goes_out_to_a_file_and_a_strand_of_it_comes_in_as_the_prototype(wisps, tmp_path):
+    files, studio = wisps.app.actions.hair_files, wisps.studio
+    files.save_hair(tmp_path / "hair")
+    wisps.until(lambda: not studio.chores.busy)
+    wisps.frames()
+    assert wisps.messages()[-1].startswith("Wrote 500 strands")
+    written, shown = read_strands(tmp_path / "hair.hair"), studio.stage.strands
+    np.testing.assert_array_equal(written.points, shown.points)
+    before = studio.document.wisp
+    files.load_prototype(tmp_path / "hair.hair")
+    assert studio.document.wisp.prototype_curve == sample_strand(written)
+    assert studio.work.history.undo_label == "Import prototype"
+    studio.undo()
+    assert studio.document.wisp == before
+    (tmp_path / "torn.hair").write_bytes(b"HAIR")
+    files.load_prototype(tmp_path / "torn.hair")
+    assert studio.messages.log[-1].kind == "error"
+    assert "torn.hair" in wisps.messages()[-1]
+    assert "Error" not in wisps.messages()[-1]

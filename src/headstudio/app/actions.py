@@ -15,6 +15,7 @@ from ..scene.recent import recent_projects
 from .commands import Command
 from .file_browser import FileWish
 from .tools.tool import Tool
+from .wisps.hair_files import HairFiles
 from .wrinkles.face_files import FaceFiles
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ class Actions:
     def __init__(self, app: Application) -> None:
         self._app = app
         self._studio = app.studio
+        self.hair_files = HairFiles(app.studio, app.dialogs)
         self.face_files = FaceFiles(app.studio, app.dialogs)
 
     def commands(self) -> list[Command]:
@@ -143,6 +145,8 @@ class Actions:
             _line("File"),
             Command("File", "Import a head...", self.import_head, "Ctrl+I"),
             Command("File", "Export picture...", self.export_picture, "Ctrl+E", self._has_picture),
+            _line("File"),
+            *self.hair_files.commands(),
             _line("File"),
             *self.face_files.commands(),
             _line("File"),

@@ -9,6 +9,7 @@ from typing import Any
 from ..head.head import HeadError
 from ..head.mesh import Floats
 from ..io.film import FilmError
+from ..io.hair import HairFileError
 from ..params import ParameterError
 from ..render.context import RenderError
 from ..scene.animation import Animation, groundwork, needs
@@ -27,7 +28,7 @@ from .styling_items import Chosen
 from .work import Work
 
 # What the program foresaw and says in its own words; anything else is named with its type.
-FORESEEN = (HeadError, ParameterError, StylingError, ProjectError, RenderError, FilmError, OSError)
+FORESEEN = (HeadError, ParameterError, StylingError, ProjectError, RenderError, FilmError, HairFileError, OSError)
 
 SETTLE = 1.0  # seconds until furrows that were built in a hurry are built again
 DRAFT = 6000  # strands that are shown while something is dragged
@@ -162,15 +163,18 @@ class Studio:
         document = self.work.history.document  # the view is no matter of the simulation
         if document != self._tuned:
             animation.retune(document)
-            self._tuned, self.stage = document, None
+            self._tuned = document
+        elif seconds <= 0 and self.stage is not None:
+            return
         if seconds > 0:
             self.performance.follow(document.motion, animation.time)
             animation.advance(self.performance, seconds)
             for note in animation.take_notes():
                 self.messages.say(f"{note[:1].upper()}{note[1:]}.", "warning")
-            self.stage = None
-        if self.stage is None:
-            self.stage = animation.stage()
+        stage = animation.stage()
+        # Time may pass and nothing move: then nothing is drawn again.
+        if self.stage is None or not stage.shows_what(self.stage):
+            self.stage = stage
 
     @property
     def building(self) -> bool:

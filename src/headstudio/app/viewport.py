@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -27,6 +27,7 @@ LEFT, RIGHT, MIDDLE = 0, 1, 2
 # Parts of the full resolution; the picture is drawn coarser while it moves if a frame would take longer than this [s].
 RESOLUTIONS = (1.0, 0.75, 0.5)
 SLOW_FRAME, FAST_FRAME = 0.045, 0.018
+STILL_AFTER = 4  # frames in a row with nothing new to see
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,10 @@ class _Drawn:
     skin: SkinSettings
     size: tuple[int, int]
     supersampling: int
+
+    def same_scene(self, other: _Drawn | None) -> bool:
+        """Whether both show the same things from the same place, in whatever resolution."""
+        return other is not None and self == replace(other, size=self.size, supersampling=self.supersampling)
 
 
 class Viewport:
@@ -54,6 +59,7 @@ class Viewport:
         self.rect = Rect(0, 0, 1, 1)
         self._pixels_per_unit = 1.0
         self._resolution = 0
+        self._still_for = 0
         self._drawn: _Drawn | None = None
         self._held: str | None = None
 
@@ -133,22 +139,34 @@ class Viewport:
         if supersampling is None:
             stage = self.tool.dress(stage)
         hasty = supersampling is None and self.adaptive
-        moving = hasty and (self.studio.playback.playing or self._held is not None)
+        full = _Drawn(
+            stage, document.look, document.camera, document.skin, self._size(pixels_per_unit), supersampling or 1
+        )
+        self._still_for = self._still_for + 1 if full.same_scene(self._drawn) else 0
+        playing = self.studio.playback.playing and self._still_for < STILL_AFTER
+        moving = hasty and (playing or self._held is not None)
         part = RESOLUTIONS[self._resolution] if moving else 1.0
-        density = pixels_per_unit * part
-        size = (max(int(self.rect.width * density), 16), max(int(self.rect.height * density), 16))
-        wanted = _Drawn(stage, document.look, document.camera, document.skin, size, supersampling or 1)
+        wanted = replace(full, size=self._size(pixels_per_unit * part))
         if wanted == self._drawn:
             return
         started = time.perf_counter()
         with self.studio.reporting() as outcome:
             self.renderer.render(
-                stage, document.look, document.camera, size, supersampling=wanted.supersampling, skin=document.skin
+                stage,
+                document.look,
+                document.camera,
+                wanted.size,
+                supersampling=wanted.supersampling,
+                skin=document.skin,
             )
         # A picture that failed is not tried again until something changes.
         self._drawn = wanted
         if outcome.good and moving:
             self._adapt(time.perf_counter() - started)
+
+    def _size(self, density: float) -> tuple[int, int]:
+        """Pixels of a picture with so many of them to a unit of the window."""
+        return max(int(self.rect.width * density), 16), max(int(self.rect.height * density), 16)
 
     def _adapt(self, seconds: float) -> None:
         if seconds > SLOW_FRAME and self._resolution < len(RESOLUTIONS) - 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from ..io.hair import READABLE, WRITABLE, read_strands, write_strands
@@ -11,6 +12,7 @@ from ..scene.document import Document
 from ..scene.project import SUFFIX, load_project, new_project
 from ..scene.styles import load_style, style_names
 from ..wisp.resample import resampled
+from ..wisp.sample_strand import sample_strand
 from ..wisp.strands import Strands
 from .reporting import warn, working
 
@@ -48,6 +50,11 @@ def file_strands(path: Path, points_per_strand: int | None = None) -> Strands:
     """Strands of a file as they are in it. Raises HairFileError, OSError."""
     with working(f"reading {path.name}"):
         return read_strands(path, points_per_strand, warn)
+
+
+def with_prototype(document: Document, path: Path) -> Document:
+    """The document with a strand of a hair file as the prototype. Raises HairFileError, OSError."""
+    return replace(document, wisp=replace(document.wisp, prototype_curve=sample_strand(file_strands(path))))
 
 
 def write(strands: Strands, out: Path, points: int | None = None) -> None:

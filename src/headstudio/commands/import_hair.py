@@ -48,11 +48,7 @@ def describe(strands: Strands) -> list[str]:
     """Strands in lines of text, in the unit of their file."""
     counts = strands.counts
     fewest, most = int(counts.min()), int(counts.max())
-    low, high = strands.points.min(axis=0), strands.points.max(axis=0)
-    steps = np.linalg.norm(np.diff(strands.points, axis=0), axis=1)
-    within = np.ones(len(steps), dtype=bool)
-    within[strands.first[1:-1] - 1] = False
-    lengths = np.bincount(np.repeat(np.arange(strands.count), counts)[:-1][within], steps[within], strands.count)
+    low, high, lengths = strands.points.min(axis=0), strands.points.max(axis=0), strands.lengths
     known = [name for name, values in (("thickness", strands.radius), ("colour", strands.colour)) if values is not None]
     return [
         f"strands: {strands.count:,}",

@@ -28,7 +28,8 @@ def with_operations(document: Document, words: Sequence[str], file: Path | None)
         try:
             items += codec.from_plain(json.loads(file.read_bytes()), _KINDS)
         except (ValueError, RecursionError) as error:
-            raise ParameterError(f"{file}: this is no list of operations: it {error}") from None
+            reason = f"is no JSON ({error})" if isinstance(error, json.JSONDecodeError) else error
+            raise ParameterError(f"{file}: this is no list of operations: it {reason}") from None
     cuts = tuple(item for item in items if isinstance(item, Cut))
     operations = tuple(item for item in items if not isinstance(item, Cut))
     styling = document.styling

@@ -24,6 +24,8 @@ Pixels = NDArray[np.uint8]
 # A picture of a moment in a motion is reached in steps of a film, like the frames of one.
 APPROACH_RATE = 30.0
 
+LARGEST_SIDE = 16384  # no OpenGL here draws more; what draws less says so by itself
+
 
 class Photographer:
     """Takes pictures of stages as a document wants them to look, without a window. Raises RenderError without OpenGL."""
@@ -67,10 +69,13 @@ class Photographer:
 
 def parse_size(words: str) -> Size:
     """``512`` or ``640x480`` as width and height. Raises ParameterError."""
-    match = re.fullmatch(r"(\d{1,5})(?:x(\d{1,5}))?", words)
+    match = re.fullmatch(r"(\d+)(?:x(\d+))?", words)
     if not match:
-        raise ParameterError(f"a size is one number or two, 512 or 640x480; got {words!r}")
-    return int(match[1]), int(match[2] or match[1])
+        raise ParameterError(f"a size is one number of pixels or two, 512 or 640x480; got {words!r}")
+    size = int(match[1]), int(match[2] or match[1])
+    if not 1 <= min(size) <= max(size) <= LARGEST_SIDE:
+        raise ParameterError(f"a picture has 1 to {LARGEST_SIDE} pixels a side; got {words!r}")
+    return size
 
 
 def render(document: Document, motion: Motion, seconds: float, size: Size, out: Path) -> None:

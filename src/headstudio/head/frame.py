@@ -39,6 +39,11 @@ class HeadFrame:
         """The axes of the head in the world as columns, (3, 3): what turns many vectors with the least ado."""
         return self.rotation.as_matrix()
 
+    def is_near(self, other: HeadFrame, tolerance: float) -> bool:
+        """Whether both stand in the same place, to ``tolerance`` [rad, m], however they move there."""
+        turned = np.abs(self.axes - other.axes).max()
+        return bool(max(turned, np.abs(self.translation - other.translation).max()) <= tolerance)
+
     def to_world(self, points: Floats) -> Floats:
         """Points of the head frame [m], shape (n, 3), in the world."""
         return self.rotation.apply(points) + self.translation

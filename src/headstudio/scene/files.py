@@ -20,7 +20,10 @@ def write_atomically(path: Path, content: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         neighbour.replace(path)
-    except BaseException:
+    except BaseException as error:
         with contextlib.suppress(OSError):
             neighbour.unlink()
+        if isinstance(error, OSError):
+            # The name of the neighbour would tell the user nothing.
+            raise OSError(error.errno, error.strerror, str(path)) from None
         raise

@@ -9,7 +9,7 @@ from ..head.mesh import Floats
 from ..lcp.body import Body
 from ..lcp.wind import AirState
 from .settings import Look
-from .stage import HairOnStage, Overlays
+from .stage import NO_OVERLAYS, HairOnStage, Overlays
 
 # Linear colours. A spring is gray at its rest length, red when stretched and blue when compressed by _FULL_STRAIN.
 _SLACK, _STRETCHED, _COMPRESSED = np.array([0.35, 0.35, 0.35]), np.array([1.0, 0.08, 0.03]), np.array([0.05, 0.25, 1.0])
@@ -42,14 +42,10 @@ def overlays_of(look: Look, hair: HairOnStage, body: Body, frame: HeadFrame, air
         trails = np.stack([air.positions, air.positions - _AIR_TIME * air.velocities], axis=1)
         segments.append(_coloured(trails, 0.5 * _AIR))
     if not segments and not points:
-        return NOTHING
+        return NO_OVERLAYS
     lines, line_colours = _joined(segments, (0, 2, 3))
     places, place_colours = _joined(points, (0, 3))
     return Overlays(lines, line_colours, places, place_colours)
-
-
-# One object, so that the renderer sees that nothing has changed.
-NOTHING = Overlays()
 
 
 def _springs(hair: HairOnStage, frame: HeadFrame) -> _Marks:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator as op
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -40,6 +41,13 @@ class Overlays:
     triangle_colours: Floats = field(default_factory=lambda: np.zeros((0, 3, 4)))
 
 
+# A head that comes to rest does so ever more slowly; what moves less than this is not seen to [m, rad].
+SAME_PLACE = 1e-5
+
+# One object, so that whoever draws sees that nothing has changed.
+NO_OVERLAYS = Overlays()
+
+
 @dataclass(frozen=True, eq=False)
 class Stage:
     """One instant. Objects are compared by identity: what is the same object as in the last frame is not sent again.
@@ -51,7 +59,15 @@ class Stage:
     head: Head
     frame: HeadFrame = field(default_factory=HeadFrame)
     hair: HairOnStage | None = None
-    overlays: Overlays = field(default_factory=Overlays)
+    overlays: Overlays = NO_OVERLAYS
     strands: Strands | None = None
     skin: LivingSkin | None = None
     adornments: tuple[Adornment, ...] = ()
+
+    def shows_what(self, other: Stage) -> bool:
+        """Whether a picture of either is a picture of both: the same things, the head in the same place."""
+        same = all(
+            getattr(self, name) is getattr(other, name) for name in ("head", "hair", "overlays", "strands", "skin")
+        )
+        worn = len(self.adornments) == len(other.adornments) and all(map(op.is_, self.adornments, other.adornments))
+        return same and worn and self.frame.is_near(other.frame, SAME_PLACE)

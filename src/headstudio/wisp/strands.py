@@ -59,3 +59,10 @@ class Strands:
     def counts(self) -> NDArray[np.int64]:
         """How many points each strand has, (n,)."""
         return np.diff(self.first)
+
+    @property
+    def lengths(self) -> NDArray[np.float64]:
+        """How long each strand is along its points, (n,), in the unit of the points."""
+        steps = np.linalg.norm(np.diff(self.points, axis=0), axis=1).astype(np.float64)
+        steps[self.first[1:-1] - 1] = 0.0  # from the tip of one strand to the root of the next
+        return np.add.reduceat(np.append(steps, 0.0), self.first[:-1])
