@@ -23,6 +23,8 @@ PLACES = {
     "forehead": ("glabella", "hairline", 0.5),
     "cheek": ("left_eye", "mouth_left", 0.55),
     "face": ("nasion", "nose_tip", 0.3),
+    "chin": ("nose_tip", "chin", 0.8),
+    "temple": ("right_eye", "right_tragus", 0.4),
 }
 
 
@@ -31,7 +33,8 @@ class Strange:
     """What a scan is made of. Lengths in metres.
 
     rims: volume that the rims rise by over that of the valley. rim_at, rim_width: where they stand and how wide they are,
-    in widths of the valley. wander: how far lines stray. crossing: whether they have any direction. smooth: whether the
+    in widths of the valley. wander: how far lines stray. spread: over how much of the patch's radius lines lie that do not
+    cross. crossing: whether they have any direction. smooth: whether the
     scan rounds the head's triangles or has them flat. added: whether crossing grooves add up or the deeper one counts.
     varying: how much depth changes along a line, 0 to 1. steepest: no valley is narrower than this part of its depth.
     """
@@ -47,6 +50,7 @@ class Strange:
     rim_at: float = 2.5
     rim_width: float = 1.0
     wander: float = 2e-3
+    spread: float = 1.5
     crossing: bool = False
     smooth: bool = True
     added: bool = True
@@ -125,7 +129,7 @@ def _line(rng: np.random.Generator, recipe: Strange, number: int) -> Floats:
         middle = rng.uniform(-0.3, 0.3, 2) * room
     else:
         # One above the other.
-        middle = np.array([rng.uniform(-0.2, 0.2), ((number + 0.5) / recipe.lines - 0.5) * 1.5]) * room
+        middle = np.array([rng.uniform(-0.2, 0.2), ((number + 0.5) / recipe.lines - 0.5) * recipe.spread]) * room
     part = np.linspace(-0.5, 0.5, 400)
     aside = (
         sum(rng.normal(0.0, 1.0) / k * np.sin(2 * np.pi * (k * 0.8 * part + rng.random())) for k in (1, 2, 3))

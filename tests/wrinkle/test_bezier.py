@@ -81,3 +81,14 @@ def test_a_chain_has_3k_plus_1_control_points():
     for controls in ([[0, 0]] * 3, [[0, 0]] * 5, [[0, np.nan]] * 4):
         with pytest.raises(ValueError, match="control points"):
             BezierChain(controls)
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.0, 2.0), (0.3, 0.7), (0.25, 1.5), (1.0, 2.0)])
+def test_a_part_of_a_chain_runs_where_the_chain_does(start, end):
+    chain = BezierChain(np.random.default_rng(4).random((7, 2)))
+    part = chain.between(start, end)
+    places = np.linspace(start, end, 9)
+    for t in places:
+        away = np.linalg.norm(part.sampled(400)[1] - chain.at(t), axis=1).min()
+        assert away < 3e-3
+    assert np.allclose(part.controls[[0, -1]], chain.at(np.array([start, end])))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import igl
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
@@ -13,19 +14,18 @@ from headstudio.head.repair import repair
 from headstudio.wrinkle.alignment import ScanError, align, moved, plausible_units
 from headstudio.wrinkle.comparison import Distances, compare
 from headstudio.wrinkle.creases import Creases
-from headstudio.wrinkle.cross_profile import section
-from headstudio.wrinkle.cross_section import CrossSection, strands_for
+from headstudio.wrinkle.cross_profile import section_height
+from headstudio.wrinkle.cross_section import CrossSection, control_heights, half_width
 from headstudio.wrinkle.face_creases import face_bed
 from headstudio.wrinkle.fitting import FurrowFit, fit_grooves
 from headstudio.wrinkle.groove import Groove, GrooveBed, MetricField
 from headstudio.wrinkle.scan_fit import fit_face
 from headstudio.wrinkle.scan_heights import ScanHeights, SkinTexels
-from headstudio.wrinkle.shape import wrinkle_shape
 from headstudio.wrinkle.skin_layout import SkinLayout
 from headstudio.wrinkle.valley_lines import valley_lines
 from headstudio.wrinkle.valleys import valley_field
 
-from .skins import cap, flat_map, sheet
+from .skins import cap, cut, flat_map, sheet
 from .strange_scans import Strange, profile, strange_scan
 
 NOISE = 1e-4
@@ -87,7 +87,7 @@ def test_a_fit_comes_near_a_scan_whose_grooves_have_another_profile(scan, fit):
 
 
 def test_fitted_furrows_lie_along_the_grooves_and_are_there_at_rest(fit):
-    deep = [groove for groove in fit.grooves if groove.floor[0] > 1.5e-3]
+    deep = [groove for groove in fit.grooves if groove.floor > 1.5e-3]
     assert len(LINES) <= len(deep) <= 2 * len(LINES)
     for groove in deep:
         _, uv = groove.chain.sampled(30)
@@ -117,18 +117,22 @@ def test_valleys_are_followed_through_a_crossing():
     assert all(line.length < 0.085 for line in lines)
 
 
-def test_derivatives_of_a_groove_are_those_of_differences():
+HEIGHTS = (0.0, 0.1, 0.3, 0.1, -0.4, -0.9, -1.1, -0.8, -0.2, 0.2, 0.1)
+
+
+@pytest.mark.parametrize("section", [(), HEIGHTS])
+def test_derivatives_of_a_groove_are_those_of_differences(section):
     texels = SkinTexels.of(layout())
     controls = np.array([[0.2, 0.4], [0.3, 0.42], [0.4, 0.44], [0.5, 0.45], [0.6, 0.46], [0.7, 0.455], [0.8, 0.45]])
-    strands = ((-0.3, 2e-3, 1.0), (0.5, 1e-3, 1.5), (2.0, -5e-4, 0.8))
-    groove = Groove(controls, 1.6e-3, strands, swell=(0.8, 1.2, 1.0, 0.9))
+    groove = Groove(controls, 3e-3, 2e-3, section, swell=(0.8, 1.2, 1.0, 0.9) if section else ())
     metrics, near = MetricField(texels), np.arange(len(texels.uv))
     bed = GrooveBed(groove, texels, metrics, near)
     height, analytic = bed.heights()
     image = np.zeros(len(near))
     image[bed.rows] = height
     count = len(bed.free)
-    steps = {1: 2e-5, count + 1: 2e-5, count + 3: 1e-3, count + 4: 1e-5, count + 6: 1e-5, count + 8: 1e-3}
+    steps = {1: 2e-5, count + 1: 2e-5}
+    steps |= {count + 5: 1e-5, count + 9: 1e-5, count + 16: 1e-3} if section else {count + 3: 1e-3, count + 4: 1e-5}
     for unknown, step in steps.items():
         change = np.zeros(bed.unknowns)
         change[unknown] = step
@@ -140,14 +144,32 @@ def test_derivatives_of_a_groove_are_those_of_differences():
         assert np.linalg.norm(difference) == pytest.approx(np.linalg.norm(analytic[:, unknown]), rel=0.1)
 
 
-def test_a_groove_as_a_furrow_is_as_deep_as_its_floor_and_as_wide_as_it_is_below_the_skin():
+def test_a_groove_as_a_furrow_is_as_deep_as_its_floor_and_makes_the_same_of_the_skin():
     controls = np.array([[0.2, 0.4], [0.4, 0.4], [0.6, 0.4], [0.8, 0.4]])
-    plain = Groove(controls, 2e-3, ((0.0, 3e-3, 1.0),), swell=(0.5, 1.0, 2.0)).furrow("groove")
-    assert plain.depth == pytest.approx(6e-3)
-    assert plain.width == pytest.approx(2e-3, abs=1e-4)
     across = np.linspace(-0.01, 0.01, 101)
-    made = section(across, plain.depth, plain.width, plain.strands) * plain.swell[1]
-    assert np.allclose(made, wrinkle_shape(np.abs(across), 3e-3, 2e-3), atol=3e-5)
+    for section in ((), HEIGHTS):
+        furrow = Groove(controls, 2e-3, 3e-3, section, swell=(0.5, 1.0, 2.0)).furrow("groove")
+        assert max(furrow.swell) == 1.0
+        made = section_height(across, furrow.depth, furrow.width, furrow.section)
+        assert np.allclose(furrow.swell[1] * made, section_height(across, 3e-3, 2e-3, section), atol=1e-6)
+        assert made.min() == pytest.approx(-furrow.depth, rel=0.01)
+
+
+def test_a_groove_ends_where_it_is_no_more_to_be_seen():
+    texels = SkinTexels.of(layout())
+    controls = np.array([[0.2, 0.4], [0.4, 0.4], [0.6, 0.4], [0.8, 0.4]])
+    groove = Groove(controls, 2e-3, 3e-3, HEIGHTS, taper=0.05, swell=(1.0, 1.0, 1.0, 0.0, 0.0))
+    metrics, near = MetricField(texels), np.arange(len(texels.uv))
+    bed = GrooveBed(groove, texels, metrics, near)
+    short = groove.trimmed(bed.arc_at, 0.06)
+    assert np.array_equal(short.controls[0], controls[0])
+    assert 0.6 < short.controls[-1, 0] < 0.68
+    image, other = np.zeros((2, len(near)))
+    image[bed.rows] = bed.heights()[0]
+    again = GrooveBed(short, texels, metrics, near)
+    other[again.rows] = again.heights()[0]
+    assert np.abs(image - other).mean() < 0.1 * np.abs(image).mean()
+    assert GrooveBed(short, texels, metrics, near).groove.trimmed(again.arc_at, 0.06) is short
 
 
 def section_of(height) -> CrossSection:
@@ -155,31 +177,32 @@ def section_of(height) -> CrossSection:
     return CrossSection(across, height(across), np.ones_like(across))
 
 
-def misfit_of(seen: CrossSection, strands) -> float:
-    made = section(seen.across, 1.0, 2e-3, strands)
+def misfit_of(seen: CrossSection) -> float:
+    width = half_width(seen, 3e-3)
+    made = section_height(seen.across, 1.0, width, tuple(control_heights(seen, width)))
     return float(np.abs(made - seen.height).mean() / np.abs(seen.height).mean())
 
 
-def test_a_cross_section_of_the_studio_itself_takes_one_strand():
-    seen = section_of(lambda across: wrinkle_shape(np.abs(across), 3e-3, 2.4e-3))
-    (strand,) = strands_for(seen, 2e-3)
-    assert strand == pytest.approx((0.0, 3e-3, 1.2), rel=0.02)
-
-
-@pytest.mark.parametrize("rims", [0.5, 1.0, 1.3])
-def test_strands_come_near_round_floors_and_rims_of_any_height(rims):
+@pytest.mark.parametrize("rims", [0.0, 0.3, 0.5, 1.0, 1.3])
+def test_a_section_has_round_floors_and_rims_of_any_height(rims):
     seen = section_of(lambda across: 3e-3 * profile(across / 2e-3, Strange(0, rims=rims)))
-    assert misfit_of(seen, strands_for(seen, 2e-3)) < 0.15
+    assert seen.told
+    assert 2e-3 < half_width(seen, 3e-3) < 5e-3
+    assert misfit_of(seen) < 0.06
 
 
 def test_a_section_that_leans_to_one_side_is_met():
     seen = section_of(lambda x: 2e-3 * (np.exp(-(((x - 4e-3) / 2e-3) ** 2)) - np.exp(-((x / 2e-3) ** 2))))
-    assert misfit_of(seen, strands_for(seen, 2e-3)) < 0.15
+    assert misfit_of(seen) < 0.06
+
+
+def test_where_no_groove_is_there_is_no_width_of_one():
+    assert half_width(section_of(np.abs), 2e-3) == 2e-3
 
 
 def test_of_a_section_that_is_hardly_seen_nothing_is_told():
     few = np.arange(5) * 4e-4
-    assert strands_for(CrossSection(few, -few, np.ones(5)), 2e-3) == ()
+    assert not CrossSection(few, -few, np.ones(5)).told
 
 
 def test_a_scan_of_a_face_with_wandering_grooves_is_met():
@@ -255,5 +278,18 @@ def test_what_a_patch_does_not_cover_does_not_count():
 
 
 def test_figures_of_distances():
-    found = Distances.of(np.array([3.0, -4.0]))
-    assert (found.mean, found.rms, found.largest, found.count) == (3.5, pytest.approx(np.sqrt(12.5)), 4.0, 2)
+    found = Distances.of(np.array([3.0, -4.0]), np.array([3.0, 1.0]))
+    assert (found.mean, found.rms, found.largest, found.count) == (3.25, pytest.approx(np.sqrt(10.75)), 4.0, 2)
+
+
+def test_triangles_that_are_finer_in_places_count_no_more():
+    flat, step = sheet(jitter=0.0), 2e-3
+    # Half of the sheet lies 2 mm higher, with four times as many triangles.
+    high = flat.vertices[flat.faces][..., 0].mean(axis=1) > 0.05
+    parts = [cut(flat, ~high), cut(flat, high)]
+    fine = lifted(TriangleMesh(*igl.upsample(parts[1].vertices, parts[1].faces)[:2]), step)
+    both = TriangleMesh(
+        np.concatenate([parts[0].vertices, fine.vertices]),
+        np.concatenate([parts[0].faces, fine.faces + len(parts[0].vertices)]),
+    )
+    assert compare(flat, both).distances().mean == pytest.approx(0.5 * step, rel=0.06)

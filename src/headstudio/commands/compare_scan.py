@@ -80,31 +80,34 @@ def measure(document: Document, scan: TriangleMesh, builder: Builder, laid: Floa
     nearest = cKDTree(texels.positions)
 
     smooth = [_at_both(mesh, at, each, lambda points: shape[nearest.query(points)[1]]) for mesh, at, each in states]
-    both = [np.concatenate([comparison.to_scan, comparison.to_skin]) for _, _, comparison in states]
     comparison = states[0][2]
+
+    def figures(*, changed: bool, places: Floats | None = None) -> tuple[Distances, Distances] | None:
+        """Without wrinkles and with them: with the change of shape or not, everywhere or around some places."""
+        found = []
+        for (mesh, at, each), change in zip(states, smooth):
+            here = np.ones(len(change), dtype=bool)
+            if places is not None:
+                here = _at_both(mesh, at, each, partial(around, wrinkled=places))
+            if not here.any():
+                return None
+            distances = each.both_ways if changed else each.both_ways - change
+            found.append(Distances.of(distances[here], each.area[here]))
+        return found[0], found[1]
+
     departs = np.abs(comparison.to_skin - smooth[0][len(comparison.to_scan) :]) > _WRINKLED
     wrinkled = scan.vertices[comparison.scan_vertices[departs]]
-    rows = {"the whole overlap": (Distances.of(both[0]), Distances.of(both[1]))}
-    close = [_at_both(mesh, at, each, lambda points: around(points, wrinkled)) for mesh, at, each in states]
-    if all(mask.any() for mask in close):
-        rows["around its wrinkles"] = (Distances.of(both[0][close[0]]), Distances.of(both[1][close[1]]))
-    rows["the whole overlap, smooth change of shape removed"] = (
-        Distances.of(both[0] - smooth[0]),
-        Distances.of(both[1] - smooth[1]),
-    )
-    if all(mask.any() for mask in close):
-        rows["around its wrinkles, smooth change of shape removed"] = (
-            Distances.of((both[0] - smooth[0])[close[0]]),
-            Distances.of((both[1] - smooth[1])[close[1]]),
-        )
+    removed = "smooth change of shape removed"
+    rows = {
+        "the whole overlap": figures(changed=True),
+        "around its wrinkles": figures(changed=True, places=wrinkled),
+        f"the whole overlap, {removed}": figures(changed=False),
+        f"around its wrinkles, {removed}": figures(changed=False, places=wrinkled),
+    }
     for region, line in _region_lines(builder.head(document.head)).items():
-        here = [_at_both(mesh, at, each, partial(around, wrinkled=line)) for mesh, at, each in states]
-        if all(mask.any() for mask in here):
-            rows[f"{region}, smooth change of shape removed"] = (
-                Distances.of((both[0] - smooth[0])[here[0]]),
-                Distances.of((both[1] - smooth[1])[here[1]]),
-            )
-    return Report(rows, float(np.sqrt(np.mean(shape[heights.covered] ** 2))))
+        rows[f"{region}, {removed}"] = figures(changed=False, places=line)
+    told = {where: pair for where, pair in rows.items() if pair is not None}
+    return Report(told, float(np.sqrt(np.mean(shape[heights.covered] ** 2))))
 
 
 def _region_lines(head: Head) -> dict[str, Floats]:

@@ -21,14 +21,14 @@ def balance(bed: FurrowBed, surface: SmoothSurface, unit_height: Floats) -> tupl
     unit_height: at full amplitude [m], (i,). Returns c0 and c1 of every entry of the bed, (i,), zero below the skin. On a
     plane c1 is zero; on curved skin an outward displacement M h makes room for H (M h)^2 more than an inward one, H the
     mean curvature. Each is within a fifth, and some hundredths on a mesh that is fine enough for its furrows. A section of
-    several strands was measured on the skin that it is on, and stays as it is.
+    its own was measured on the skin that it is on, and stays as it is.
     """
     rest = surface.at(bed.layout.skin.vertices)
     fine = bed.refined.vertices.copy()
     fine[surface.vertices] = rest.positions
     constant, linear = np.zeros_like(unit_height), np.zeros_like(unit_height)
     for k, laid in enumerate(bed.furrows):
-        if laid.furrow.strands:
+        if laid.furrow.section:
             continue
         own = np.flatnonzero(bed.furrow == k)
         heights = unit_height[own]

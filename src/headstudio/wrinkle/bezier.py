@@ -62,10 +62,27 @@ class BezierChain:
         piece = np.clip(np.floor(t), 0, self.count - 1).astype(np.int64)
         return piece, t - piece
 
+    def between(self, start: float, end: float) -> BezierChain:
+        """The part from t = start to t = end, 0 <= start < end <= k, as a chain of its own."""
+        pieces = []
+        for piece in range(int(np.floor(start)), int(np.ceil(end))):
+            low, high = max(start - piece, 0.0), min(end - piece, 1.0)
+            # Blossoming: each control point mixes both ends of the part (de Casteljau).
+            quad = self.controls[3 * piece : 3 * piece + 4]
+            pieces.append(np.stack([_blossom(quad, (low,) * (3 - k) + (high,) * k) for k in range(4)]))
+        return BezierChain(np.concatenate([pieces[0], *(piece[1:] for piece in pieces[1:])]))
+
     def sampled(self, per_curve: int) -> tuple[Floats, Floats]:
         """Evenly spaced t, (k * per_curve + 1,), and the points there."""
         t = np.linspace(0.0, self.count, self.count * per_curve + 1)
         return t, self.at(t)
+
+
+def _blossom(quad: Floats, at: tuple[float, ...]) -> Floats:
+    """The polar form of a cubic, (4, 2), at three parameters: (2,)."""
+    for u in at:
+        quad = (1.0 - u) * quad[:-1] + u * quad[1:]
+    return quad[0]
 
 
 def polynomial(c: Floats, u: Floats) -> Floats:

@@ -1,6 +1,7 @@
 """How far a skin is from a scan of it: Bando's thesis, section 2.7, figure 2.15.
 
-The distance from each vertex of one mesh to the nearest triangle of the other, both ways.
+The distance from each vertex of one mesh to the nearest triangle of the other, both ways. A vertex counts by the skin
+around it: a mesh that is finer around furrows than elsewhere would else be measured mostly there.
 """
 
 from __future__ import annotations
@@ -31,10 +32,10 @@ class Distances:
     count: int
 
     @classmethod
-    def of(cls, distances: Floats) -> Distances:
-        """The figures of distances [m], (k,), at least one."""
-        size = np.abs(distances)
-        return cls(float(size.mean()), float(np.sqrt((size**2).mean())), float(size.max()), len(size))
+    def of(cls, distances: Floats, area: Floats) -> Distances:
+        """The figures of distances [m], (k,), at least one. area: of the skin that each stands for, (k,)."""
+        size, share = np.abs(distances), area / area.sum()
+        return cls(float(share @ size), float(np.sqrt(share @ size**2)), float(size.max()), len(size))
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,16 +44,23 @@ class Comparison:
 
     vertices: of the skin that the scan covers, (k,). to_scan: signed distance of each to the scan [m], above 0 where the
     scan lies higher, (k,). scan_vertices: of the scan that lie on the skin, (l,). to_skin: signed distance of each [m].
+    area: that each vertex of the skin and then of the scan stands for [m^2], (k + l,).
     """
 
     vertices: Ints
     to_scan: Floats
     scan_vertices: Ints
     to_skin: Floats
+    area: Floats
+
+    @property
+    def both_ways(self) -> Floats:
+        """Signed distances of the skin's vertices and then of the scan's [m], (k + l,)."""
+        return np.concatenate([self.to_scan, self.to_skin])
 
     def distances(self) -> Distances:
         """Both ways."""
-        return Distances.of(np.concatenate([self.to_scan, self.to_skin]))
+        return Distances.of(self.both_ways, self.area)
 
 
 def compare(skin: TriangleMesh, scan: TriangleMesh, part: np.ndarray | None = None) -> Comparison:
@@ -67,7 +75,9 @@ def compare(skin: TriangleMesh, scan: TriangleMesh, part: np.ndarray | None = No
     counts = part[skin.faces[foot]].all(axis=1)
     if not len(vertices) or not counts.any():
         raise ScanError("the scan covers no part of the face")
-    return Comparison(vertices, to_scan, scan_vertices[counts], -to_skin[counts])
+    scan_vertices = scan_vertices[counts]
+    area = np.concatenate([_areas(skin)[vertices], _areas(scan)[scan_vertices]])
+    return Comparison(vertices, to_scan, scan_vertices, -to_skin[counts], area)
 
 
 def around(points: Floats, wrinkled: Floats) -> np.ndarray:
@@ -75,6 +85,13 @@ def around(points: Floats, wrinkled: Floats) -> np.ndarray:
     if not len(wrinkled):
         return np.zeros(len(points), dtype=bool)
     return np.asarray(np.isfinite(cKDTree(wrinkled).query(points, distance_upper_bound=AROUND)[0]))
+
+
+def _areas(mesh: TriangleMesh) -> Floats:
+    """A third of the triangles around every vertex [m^2], (n,)."""
+    areas: Floats = np.zeros(len(mesh.vertices))
+    np.add.at(areas, mesh.faces, mesh.face_areas[:, None] / 3.0)
+    return areas
 
 
 def _one_way(mesh: TriangleMesh, other: TriangleMesh, vertices: Ints) -> tuple[Ints, Floats, Ints]:

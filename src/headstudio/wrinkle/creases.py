@@ -15,7 +15,7 @@ from scipy import sparse
 from ..head.mesh import Floats, Ints, TriangleMesh
 from .balance import balance
 from .blending import Blending
-from .cross_profile import section, section_slope
+from .cross_profile import section_height, section_slope
 from .furrow import Furrow
 from .furrow_bed import FurrowBed
 from .metric import perpendicular, vertex_metrics
@@ -142,8 +142,8 @@ def _sections(bed: FurrowBed, depths: Floats) -> tuple[Floats, Floats]:
         own = np.flatnonzero(bed.furrow == k)
         side = beside.side[own]
         across = side * beside.distance[own]
-        shape = depths[k], laid.furrow.width, laid.furrow.strands
-        profile[own], slope[own] = section(across, *shape), side * section_slope(across, *shape)
+        shape = depths[k], laid.furrow.width, laid.furrow.section
+        profile[own], slope[own] = section_height(across, *shape), side * section_slope(across, *shape)
     return profile, slope
 
 

@@ -87,11 +87,12 @@ class FaceChart:
     def to_texture(self, furrow: Furrow) -> Furrow | None:
         """A furrow of the chart in the texture space of this head; None when less than half of it meets the face.
 
-        What lies off the face is left out: the neck of a bust may end early.
+        What lies off the face is left out: the neck of a bust may end early. A furrow that comes to an eye or the mouth
+        goes on behind it.
         """
         skin = self.on_skin(_sampled(furrow.chain, 1.0))
-        on_face = _longest_run(np.isfinite(skin[:, 0]))
-        if len(on_face) < max(0.5 * len(skin), 2):
+        on_face = np.isfinite(skin[:, 0])
+        if on_face.sum() < max(0.5 * len(skin), 2):
             return None
         return self.stroke_in_texture(furrow, skin[on_face])
 
@@ -137,12 +138,6 @@ def _sampled(chain: BezierChain, metres: float) -> Floats:
     """Points of a chain, some half a millimetre apart, (k, 2); ``metres`` is the length of its unit."""
     hull = np.linalg.norm(np.diff(chain.controls, axis=0), axis=1).sum() * metres
     return chain.sampled(int(np.clip(hull / _SPACING / chain.count, 8, 400)))[1]
-
-
-def _longest_run(flags: np.ndarray) -> np.ndarray:
-    """The indices of the longest run of true values."""
-    runs = np.split(np.arange(len(flags)), np.flatnonzero(np.diff(flags)) + 1)
-    return max((run for run in runs if flags[run[0]]), key=len, default=np.zeros(0, dtype=np.int64))
 
 
 def _controls(points: Floats, tolerance: float) -> tuple[tuple[float, float], ...]:

@@ -10,7 +10,7 @@ from scipy import ndimage
 
 from ..head.mesh import Floats, TriangleMesh
 from .bezier import fit_stroke
-from .cross_section import cross_section, strands_for
+from .cross_section import control_heights, cross_section, half_width
 from .groove import Groove
 from .groove_fit import GrooveFit
 from .scan_heights import ScanHeights, SkinTexels
@@ -20,8 +20,8 @@ from .valleys import valley_field
 
 # A change of shape is smooth over this [m]. Below this much of it beside the grooves [m], scan and skin count as one shape.
 _SMOOTH, _SAME_SHAPE = 0.014, 6e-4
-# A groove and its rims lie within so many widths.
-_FOOT = 4.0
+# A groove and its rims lie within so many widths, its floor within so many.
+_FOOT, _FLOOR = 4.0, 1.5
 # A valley stands out when it is so many times the noise deep, this deep [m] and this part of the deepest.
 _OVER_NOISE, _SHALLOWEST, _PART = 4.0, 2.5e-4, 0.07
 # A first curve passes this near the valley [m]. It ends where less than this part of the depth is left.
@@ -37,8 +37,12 @@ _CLEAR, _ANYWHERE = 0.12, np.inf
 # The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
 _PIECE = 0.014
 # Sweeps for single shapes, for cross sections, and again with grooves that were missed.
-_STEPS = (3, 4, 8)
+_STEPS = (3, 4, 5)
 _SETTLED = 4e-3
+# The last are done again, at most so often, until a round brings less than this part.
+_ROUNDS, _SETTLED_ROUND = 6, 0.02
+# Where less than this part of a groove is there, it ends.
+_OUT = 0.06
 # The depth of a groove may be another this far along it [m].
 _SWELL = 8e-3
 # Differences of this size [m] have half the say in what is a smooth change of shape.
@@ -90,11 +94,22 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     fit = _with_sections(_pruned(GrooveFit(raw.without(smooth), fit.grooves)), _CLEAR)
     _steps(fit, _STEPS[1], progress, "moving and sizing them", 0.25, 0.45)
 
-    missed = _first_grooves(fit.heights.without(fit.height))
-    progress("matching their cross sections", 0.45)
-    # Now that others are nearly right, sections can be seen between them.
-    fit = _with_sections(_pruned(fit.replaced([*fit.grooves, *missed])), _ANYWHERE)
-    _steps(fit, _STEPS[2], progress, "moving and sizing them", 0.5, 1.0, rigid=True)
+    for k in range(_ROUNDS):
+        start, end = (0.45 + 0.55 * part / _ROUNDS for part in (k, k + 1))
+        progress("looking for what was missed", start)
+        missed = _first_grooves(fit.heights.without(fit.height))
+        # Now that others are nearly right, sections can be seen between them.
+        known = [] if k == 0 else _trimmed(fit)
+        tried = fit.replaced(
+            [*known, *_with_sections(fit.replaced([*fit.grooves, *missed]), _ANYWHERE).grooves[len(known) :]]
+        )
+        tried = _pruned(tried)
+        _steps(tried, _STEPS[2], progress, "moving and sizing them", start, end, rigid=True)
+        fell = 1.0 - tried.cost / fit.cost
+        if fell > 0:
+            fit = tried
+        if fell < _SETTLED_ROUND:
+            break
     fit = _pruned(fit)
     progress("done", 1.0)
     return FurrowFit(tuple(fit.grooves), fit.motion, smooth, texels, fit.left)
@@ -140,7 +155,7 @@ def _first_groove(heights: ScanHeights, line: ValleyLine) -> Groove | None:
     if length < _SHORT:
         return None
     chain = fit_stroke(places[kept] / texels.size, _TOLERANCE / texels.layout.texture_map.metres)
-    return Groove(chain.controls, _WIDTH * line.width, ((0.0, max(float(np.median(depth[kept])), _FAINT), 1.0),))
+    return Groove(chain.controls, _WIDTH * line.width, max(float(np.median(depth[kept])), _FAINT))
 
 
 def change_of_shape(raw: ScanHeights, model: Floats | None = None, weight: Floats | None = None) -> Floats:
@@ -176,6 +191,11 @@ def _pruned(fit: GrooveFit) -> GrooveFit:
     return fit.replaced([groove for groove, gain in zip(fit.grooves, fit.worth()) if gain > _WORTH])
 
 
+def _trimmed(fit: GrooveFit) -> list[Groove]:
+    """The grooves without ends that do not show, whose curves wind about as nothing holds them."""
+    return [bed.groove.trimmed(bed.arc_at, _OUT) for bed in fit.beds]
+
+
 def _with_sections(fit: GrooveFit, clear: float) -> GrooveFit:
     """Each groove with the cross section that the scan has there, and free to swell along its way.
 
@@ -184,17 +204,14 @@ def _with_sections(fit: GrooveFit, clear: float) -> GrooveFit:
     grooves = []
     for bed in fit.beds:
         groove = bed.groove.subdivided(_PIECE / bed.length)
-        depth, _, half = groove.floor
         own = bed.heights()[0]
-        seen = cross_section(
-            bed.across,
-            fit.heights.height[bed.rows],
-            fit.height[bed.rows] - own,
-            bed.wholeness(),
-            clear * depth,
-            half,
-        )
-        strands = strands_for(seen, groove.width) or groove.strands
-        swell = groove.swell or (1.0,) * int(np.clip(bed.length / _SWELL, 3, 12))
-        grooves.append(replace(groove, strands=strands, swell=swell))
+        others = fit.height[bed.rows] - own
+        height = fit.heights.height[bed.rows]
+        seen = cross_section(bed.across, height, others, bed.wholeness(), clear * groove.floor)
+        if seen.told:
+            width = half_width(seen, _FLOOR * groove.width)
+            section = control_heights(seen, width) / groove.depth
+            swell = groove.swell or (1.0,) * int(np.clip(bed.length / _SWELL, 3, 12))
+            groove = replace(groove, width=width, section=tuple(section.tolist()), swell=swell)
+        grooves.append(groove)
     return fit.replaced(grooves)

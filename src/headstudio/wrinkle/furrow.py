@@ -11,10 +11,10 @@ from typing import Any
 
 from ..params import ParameterError, number, parameters_of, text
 from .bezier import BezierChain
-from .cross_profile import Strands
+from .cross_profile import Section
 
 Controls = tuple[tuple[float, float], ...]
-_LISTS = ("controls", "strands", "swell")
+_LISTS = ("controls", "section", "swell")
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Furrow:
     """One large wrinkle: Bando's thesis, section 2.5.
 
     controls: control points of a chain of cubic Bezier curves, 3 k + 1 of them, on the face chart (see face_chart.py) or in
-    texture space, whatever it is used with. strands: of its cross section, see cross_profile.py; none: it is (2.1). swell:
+    texture space, whatever it is used with. section: its cross section, see cross_profile.py; none: it is (2.1). swell:
     how much of the depth is there at evenly spaced places from its start to its end; none: all of it everywhere. Raises
     ValueError for control points that are no chain.
     """
@@ -55,7 +55,7 @@ class Furrow:
         "The part of its length that a furrow takes to come to full depth at either end; never less than 4 widths.",
     )
 
-    strands: Strands = ()
+    section: Section = ()
     swell: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
@@ -94,12 +94,12 @@ def _furrow(row: Any, number_: int) -> Furrow:
         controls = tuple((float(x), float(y)) for x, y in row["controls"])
         if not all(math.isfinite(c) for point in controls for c in point):
             raise ValueError("the control points of a curve are finite numbers")
-        strands = tuple((float(offset), float(depth), float(width)) for offset, depth, width in row.get("strands", ()))
-        if not all(abs(offset) <= 50 and abs(depth) <= 50 and 0.01 <= width <= 50 for offset, depth, width in strands):
-            raise ValueError("the strands of a cross section lie within 50 widths and are 0.01 to 50 wide")
+        section = tuple(float(height) for height in row.get("section", ()))
+        if len(section) > 199 or not all(abs(height) <= 50 for height in section):
+            raise ValueError("a cross section has at most 199 control heights within 50 times the depth")
         swell = tuple(float(part) for part in row.get("swell", ()))
         if not all(abs(part) <= 50 for part in swell):
             raise ValueError("a furrow swells to at most 50 times its depth")
-        return Furrow(**values, controls=controls, strands=strands, swell=swell)
+        return Furrow(**values, controls=controls, section=section, swell=swell)
     except (ParameterError, TypeError, ValueError, OverflowError) as problem:
         raise ValueError(f"has a damaged furrow {number_}: {problem}") from None

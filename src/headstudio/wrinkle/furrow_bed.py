@@ -29,8 +29,8 @@ _KEPT_EVERY, _KEPT_LAST = 6, 2
 _FEW = 4
 
 
-Line = tuple[Controls, float, float]
-"""All of a furrow that a bed depends on: control points, width and taper."""
+Line = tuple[Controls, float, float, int, tuple[float, ...]]
+"""All of a furrow that a bed depends on: control points, width, taper, how many heights its section has, and its swell."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +140,7 @@ def _entries(
 
 
 def _line(furrow: Furrow) -> Line:
-    return furrow.controls, furrow.width, furrow.taper
+    return furrow.controls, furrow.width, furrow.taper, len(furrow.section), furrow.swell
 
 
 def _common_stages(layout: SkinLayout, laying: tuple[Line, ...], known: FurrowBed | None) -> list[BedStage]:

@@ -120,7 +120,7 @@ def mirrored(furrow: Furrow, taken: Sequence[Furrow] = ()) -> Furrow:
         furrow,
         name=name,
         controls=tuple((-x, y) for x, y in furrow.controls),
-        strands=tuple((-offset, depth, width) for offset, depth, width in furrow.strands),
+        section=furrow.section[::-1],
     )
 
 

@@ -1,7 +1,8 @@
-"""A groove as it is fitted: one curve, a cross section of several shapes (2.1), and how its depth swells along it."""
+"""A groove as it is fitted: one curve, a cross section, and how its depth swells along it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
 from .bezier import BezierChain
-from .cross_profile import Strands, section, section_slope, strand_heights, strands_reach
+from .cross_profile import Section, section_height, section_reach, section_shares, section_slope
 from .furrow import Furrow
 from .laid_furrow import LaidFurrow, fade_length
 from .metric import perpendicular
@@ -19,7 +20,7 @@ from .scan_heights import SkinTexels
 from .swell import swell_shares, swelling
 
 # Limits of what a fitted furrow may be [m].
-_DEEPEST, _WIDTHS, _TAPERS = 0.014, (5e-4, 0.016), (0.02, 0.5)
+_SHALLOWEST, _DEEPEST, _WIDTHS, _TAPERS = 1e-5, 0.014, (5e-4, 0.016), (0.02, 0.5)
 # Nowhere does a groove swell to more than this many times its depth.
 _FULLEST = 2.0
 # In one step width, taper and swell change by at most this (a factor's logarithm), places and depths by so much [m].
@@ -28,20 +29,20 @@ _LOG_STEP, _STEP = 0.4, 1.5e-3
 _SAMPLES = 24
 # A cross section is looked at in so many places to find its floor.
 _PLACES = 801
-# Less height than this is nothing [m].
-_SHOWN = 5e-6
 _TINY = np.finfo(float).tiny
 
 
 @dataclass(frozen=True, eq=False)
 class Groove:
-    """controls: of the curve, in texture space, (3 n + 1, 2). width: w [m]. strands: of the cross section, see
-    cross_profile.py, with depths in metres. taper, swell: see Furrow.
+    """controls: of the curve, in texture space, (3 n + 1, 2). width, depth: w and d [m]. section, taper, swell: see Furrow.
+
+    Without a section, width and depth are unknowns of the fit; with one they are its units.
     """
 
     controls: Floats
     width: float
-    strands: Strands
+    depth: float
+    section: Section = ()
     taper: float = 0.2
     swell: tuple[float, ...] = ()
 
@@ -51,24 +52,16 @@ class Groove:
         return BezierChain(self.controls)
 
     @property
-    def floor(self) -> tuple[float, float, float]:
-        """How deep the groove is where it is deepest, how far to the left of its curve, and from there to the level of
-        the skin [m]."""
-        reach = min(strands_reach(self.strands), 12.0) * self.width
-        across = np.linspace(-reach, reach, _PLACES)
-        height = section(across, 1.0, self.width, self.strands)
-        lowest = int(height.argmin())
-        level = np.flatnonzero(height >= 0)
-        half = float(np.abs(across[level] - across[lowest]).min(initial=reach))
-        return -float(height[lowest]) * max(self.swell, default=1.0), float(across[lowest]), half
+    def floor(self) -> float:
+        """How deep the groove is where it is deepest [m]."""
+        across = np.linspace(-self.reach, self.reach, _PLACES)
+        lowest = section_height(across, self.depth, self.width, self.section).min()
+        return -float(lowest) * max(self.swell, default=1.0)
 
     @property
     def reach(self) -> float:
-        """How far from its curve the groove shows [m]."""
-        farthest = strands_reach(self.strands) * self.width
-        across = np.linspace(-farthest, farthest, _PLACES)
-        shown = np.abs(section(across, 1.0, self.width, self.strands)) > _SHOWN
-        return float(np.abs(across[shown]).max(initial=self.width)) + 2 * farthest / _PLACES
+        """How far from its curve the groove displaces the skin [m]."""
+        return section_reach(self.section) * self.width
 
     def subdivided(self, longest: float) -> Groove:
         """The same with every Bezier curve halved that is longer than a part ``longest`` of the whole."""
@@ -82,16 +75,36 @@ class Groove:
             pieces.append(halves[1:])
         return replace(self, controls=np.concatenate(pieces))
 
+    def trimmed(self, arc_at: Callable[[Floats], Floats], least: float) -> Groove:
+        """Without what lies beyond the first and the last place where a part ``least`` of the full depth is there.
+
+        arc_at: from the parameter of the curve, (k,), to the length along it [m], (k,).
+        """
+        t, _ = self.chain.sampled(_SAMPLES)
+        arc = arc_at(t)
+        whole = faded(self, arc, arc[-1]) * swelling(arc / arc[-1], self.swell)[0]
+        shown = np.flatnonzero(whole >= least * whole.max())
+        first, last = max(shown[0] - 1, 0), min(shown[-1] + 1, len(t) - 1)
+        if last - first < 2 or last - first == len(t) - 1:
+            return self
+        chain = self.chain.between(float(t[first]), float(t[last]))
+        if not self.swell:
+            return replace(self, controls=chain.controls)
+        # As much of it is there as was, though now the shorter line fades.
+        length = arc[last] - arc[first]
+        short = fade_length(length, self.width, self.taper, True)
+        places = np.clip(np.linspace(0.0, length, len(self.swell)), 0.4 * short, length - 0.4 * short)
+        swell = np.interp(arc[first] + places, arc, whole) / faded(self, places, length)
+        return replace(self, controls=chain.controls, swell=tuple(np.clip(swell, 0.0, _FULLEST).tolist()))
+
     def furrow(self, name: str, region: str = "") -> Furrow:
         """As a furrow that is there at rest, with control points in texture space."""
-        depth, _, half = self.floor
-        depth, width = min(max(depth, 1e-6), _DEEPEST), float(np.clip(half, *_WIDTHS))
-        most = max(self.swell, default=1.0)
-        scale = self.width / width
-        strands = tuple((o * scale, d * most / depth, v * scale) for o, d, v in self.strands)
+        depth = min(max(self.floor, 1e-6), _DEEPEST)
+        most = max(max(self.swell, default=1.0), _TINY)
+        section = tuple(height * self.depth * most / depth for height in self.section)
         swell = tuple(part / most for part in self.swell)
         controls = tuple((float(x), float(y)) for x, y in self.controls)
-        return Furrow(name, region, depth, width, 1.0, controls, self.taper, strands, swell)
+        return Furrow(name, region, depth, self.width, 1.0, controls, self.taper, section, swell)
 
 
 class MetricField:
@@ -141,6 +154,7 @@ class GrooveBed:
         t, g = found.t[kept], texels.metrics[near[kept]]
         self.across = found.side[kept] * found.distance[kept]
         self.arc = laid.arc(t)
+        self.arc_at = laid.arc
         tangent = chain.tangents(t)
         # The gradient of the distance in texture space, towards the left.
         turned = np.stack([-tangent[:, 1], tangent[:, 0]], axis=1)
@@ -159,22 +173,23 @@ class GrooveBed:
 
     @property
     def unknowns(self) -> int:
-        """Free control points, both ends, taper, width, the depth of each strand and the swell."""
-        return len(self.free) + 4 + len(self.groove.strands) + len(self.groove.swell)
+        """Free control points, both ends, taper, width and depth or the heights of the section, and the swell."""
+        return len(self.free) + 3 + (len(self.groove.section) or 2) + len(self.groove.swell)
 
     def scales(self, logarithm: float, place: float) -> Floats:
         """The sizes of unknowns, (unknowns,), given those of logarithms and of lengths [m]."""
-        lengths, strands, swell = len(self.free) + 2, len(self.groove.strands), len(self.groove.swell)
-        return np.repeat([place, logarithm, place, logarithm], [lengths, 2, strands, swell])
+        section, swell = len(self.groove.section), len(self.groove.swell)
+        logarithms, heights = (1, section) if section else (2, 1)
+        return np.repeat([place, logarithm, place, logarithm], [len(self.free) + 2, logarithms, heights, swell])
 
     def heights(self) -> tuple[Floats, Floats]:
         """Height [m] and its derivatives by the unknowns, (i,) and (i, unknowns).
 
-        Width and taper count by their logarithms, places and depths in metres, the swell as it is.
+        Width and taper count by their logarithms, places and heights in metres, the swell as it is.
         """
         groove, count = self.groove, len(self.free)
-        profile = section(self.across, 1.0, groove.width, groove.strands)
-        slope = section_slope(self.across, 1.0, groove.width, groove.strands)
+        shape = groove.depth, groove.width, groove.section
+        profile, slope = section_height(self.across, *shape), section_slope(self.across, *shape)
         fade, *by_ends, by_width, by_taper = self._fade()
         part = self.arc / self.length
         swell = swelling(part, groove.swell)[0]
@@ -182,26 +197,29 @@ class GrooveBed:
         derivative[:, :count] = (fade * swell * slope)[:, None] * self.by_control
         for k, change in enumerate((*by_ends, by_taper)):
             derivative[:, count + k] = swell * change * profile
-        derivative[:, count + 3] = swell * (by_width * profile - fade * self.across * slope)
-        own, last = count + 4, count + 4 + len(groove.strands)
-        derivative[:, own:last] = (fade * swell)[:, None] * strand_heights(self.across, groove.width, groove.strands)
+        if groove.section:
+            shares = section_shares(self.across, groove.width, len(groove.section))
+            derivative[:, count + 3 : count + 3 + len(groove.section)] = (fade * swell)[:, None] * shares
+        else:
+            derivative[:, count + 3] = swell * (by_width * profile - fade * self.across * slope)
+            derivative[:, count + 4] = fade * swell * section_height(self.across, 1.0, groove.width, ())
         if groove.swell:
-            derivative[:, last:] = (fade * profile)[:, None] * swell_shares(part, len(groove.swell))[0]
+            derivative[:, -len(groove.swell) :] = (fade * profile)[:, None] * swell_shares(part, len(groove.swell))[0]
         return fade * swell * profile, derivative
 
     def wholeness(self) -> Floats:
         """How much of the groove is there, (i,): 0 at the ends to 1."""
-        fade = _faded(self.arc, self.length, self.groove.width, self.groove.taper)
+        fade = faded(self.groove, self.arc, self.length)
         return fade * swelling(self.arc / self.length, self.groove.swell)[0]
 
     def _fade(self) -> tuple[Floats, ...]:
         """How much of the depth is there, and its derivatives by a longer start, a longer end, log width and log taper."""
-        width, taper, step, part = self.groove.width, self.groove.taper, 1e-4, 0.01
-        fade = _faded(self.arc, self.length, width, taper)
-        longer_start = _faded(self.arc + step, self.length + step, width, taper)
-        longer_end = _faded(self.arc, self.length + step, width, taper)
-        wider = _faded(self.arc, self.length, (1 + part) * width, taper)
-        slower = _faded(self.arc, self.length, width, (1 + part) * taper)
+        groove, step, part = self.groove, 1e-4, 0.01
+        fade = faded(groove, self.arc, self.length)
+        longer_start = faded(groove, self.arc + step, self.length + step)
+        longer_end = faded(groove, self.arc, self.length + step)
+        wider = faded(replace(groove, width=(1 + part) * groove.width), self.arc, self.length)
+        slower = faded(replace(groove, taper=(1 + part) * groove.taper), self.arc, self.length)
         return (
             fade,
             (longer_start - fade) / step,
@@ -217,24 +235,24 @@ class GrooveBed:
         start, end = np.clip(step[count : count + 2], -2 * _STEP, 2 * _STEP)
         controls = _prolonged(controls, start / self._end_speed[0])
         controls = _prolonged(controls[::-1], end / self._end_speed[1])[::-1]
-        taper, width = np.exp(np.clip(step[count + 2 : count + 4], -_LOG_STEP, _LOG_STEP)) * [
-            groove.taper,
-            groove.width,
-        ]
-        deeper = np.clip(step[count + 4 : count + 4 + len(groove.strands)], -_STEP, _STEP)
-        more = np.clip(step[count + 4 + len(groove.strands) :], -_LOG_STEP, _LOG_STEP)
-        return Groove(
-            controls,
-            float(np.clip(width, *_WIDTHS)),
-            tuple((offset, float(d + change), v) for (offset, d, v), change in zip(groove.strands, deeper)),
-            float(np.clip(taper, *_TAPERS)),
-            tuple(float(np.clip(part + change, 0.0, _FULLEST)) for part, change in zip(groove.swell, more)),
-        )
+        factors = np.exp(np.clip(step[count + 2 : count + 4], -_LOG_STEP, _LOG_STEP))
+        taper = float(np.clip(factors[0] * groove.taper, *_TAPERS))
+        last = len(step) - len(groove.swell)
+        heights = np.clip(step[count + 3 : last], -_STEP, _STEP)
+        more = np.clip(step[last:], -_LOG_STEP, _LOG_STEP)
+        swell = tuple(float(np.clip(part + change, 0.0, _FULLEST)) for part, change in zip(groove.swell, more))
+        if groove.section:
+            section = tuple(float(h + change / groove.depth) for h, change in zip(groove.section, heights))
+            return Groove(controls, groove.width, groove.depth, section, taper, swell)
+        width = float(np.clip(factors[1] * groove.width, *_WIDTHS))
+        return Groove(controls, width, max(groove.depth + float(heights[1]), _SHALLOWEST), (), taper, swell)
 
 
-def _faded(arc: Floats, length: float, width: float, taper: float) -> Floats:
-    part = np.clip(np.minimum(arc, length - arc) / fade_length(length, width, taper), 0.0, 1.0)
-    return part**2 * (3 - 2 * part)
+def faded(groove: Groove, arc: Floats, length: float) -> Floats:
+    """How much of a groove is there, swell apart, at lengths along it [m], (k,): 0 at the ends to 1."""
+    fade = fade_length(length, groove.width, groove.taper, bool(groove.swell))
+    part = np.clip(np.minimum(arc, length - arc) / fade, 0.0, 1.0)
+    return np.asarray(part**2 * (3 - 2 * part))
 
 
 def _free_controls(chain: BezierChain) -> tuple[Ints, Floats]:

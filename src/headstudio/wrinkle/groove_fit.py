@@ -29,8 +29,6 @@ _DAMPING, _EASED, _STIFFER, _TRIES = 1e-2, 0.3, 6.0, 4
 _LOG, _PLACE, _TURN = 0.3, 1e-3, 0.01
 # Texels farther than this from a curve's samples, besides its reach, are not looked at [m].
 _SLACK = 5e-3
-# How much denser the vertices of the wrinkled mesh are within a distance of a furrow [m]. Distances are a mean over these.
-_DENSE = ((2e-3, 5.0), (5e-3, 2.0))
 
 
 class _Placed:
@@ -64,7 +62,6 @@ class GrooveFit:
         self._rows: Ints = np.flatnonzero(heights.covered)
         self._upright = uprightness(heights)
         self._area = np.where(heights.covered, self.texels.area, 0.0)
-        self._area *= self._density(grooves)
         self._area /= self._area.sum()
         self._placed = [_Placed(self._bed(groove)) for groove in grooves]
         self._damping = np.full(len(self._placed), _DAMPING)
@@ -184,15 +181,6 @@ class GrooveFit:
     def _weights(self, rows: Ints, left: Floats) -> Floats:
         upright = self._upright[rows]
         return self._area[rows] * upright**2 / np.sqrt((left * upright) ** 2 + _NOISE**2)
-
-    def _density(self, grooves: Sequence[Groove]) -> Floats:
-        """How many more vertices the wrinkled mesh has at every texel than beside its furrows, (k,)."""
-        density = np.ones(len(self.heights.height))
-        for groove in grooves:
-            away, _ = cKDTree(self._line(groove)).query(self.texels.positions, distance_upper_bound=_DENSE[-1][0])
-            for reach, factor in _DENSE[::-1]:
-                density[away < reach] = np.maximum(density[away < reach], factor)
-        return density
 
     def _line(self, groove: Groove) -> Floats:
         """Points of a curve on the skin [m], (k, 3)."""

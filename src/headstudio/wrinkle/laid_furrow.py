@@ -9,7 +9,7 @@ import numpy as np
 
 from ..head.mesh import Floats
 from .bezier import BezierChain
-from .cross_profile import strands_reach
+from .cross_profile import section_reach
 from .furrow import Furrow
 from .nearest import nearest_on_curve, slid_to_nearest
 from .skin_layout import SkinLayout
@@ -17,8 +17,9 @@ from .swell import swelling
 
 # Samples a curve, for lengths along it.
 _SAMPLES = 64
-# A furrow fades out toward its ends over this many widths, or its taper if that is more.
-_FADE_WIDTHS = 4.0
+# A furrow fades out toward its ends over this many widths, or its taper if that is more; where a swell says how deep it is
+# along its way, so many are enough.
+_FADE_WIDTHS, _SWELLING = 4.0, 1.5
 # Within this many widths of the curve the two walls blend into each other for shading.
 _FLOOR = 0.35
 _TINY = np.finfo(float).tiny
@@ -53,7 +54,7 @@ class LaidFurrow:
         self.furrow = furrow
         self.layout = layout
         self.chain: BezierChain = furrow.chain
-        self.reach = strands_reach(furrow.strands) * furrow.width
+        self.reach = section_reach(furrow.section) * furrow.width
         self._t, places = self.chain.sampled(_SAMPLES)
         found, _ = layout.locate(places)
         mesh = layout.texture_map.mesh
@@ -78,7 +79,8 @@ class LaidFurrow:
     @property
     def fade_length(self) -> float:
         """Over how much of its length the furrow comes to full depth at either end [m]."""
-        return fade_length(self.length, self.furrow.width, self.furrow.taper)
+        furrow = self.furrow
+        return fade_length(self.length, furrow.width, furrow.taper, bool(furrow.swell))
 
     def line(self, spacing: float) -> Floats:
         """Points along the furrow on the skin [m], no farther apart than ``spacing`` [m], (k, 3)."""
@@ -140,9 +142,9 @@ class LaidFurrow:
         return np.stack([np.interp(t, self._t, flat[:, k]) for k in range(4)], axis=1).reshape(-1, 2, 2)
 
 
-def fade_length(length: float, width: float, taper: float) -> float:
-    """Over how much of its length [m] a furrow comes to full depth at either end [m]."""
-    return min(max(_FADE_WIDTHS * width, taper * length), 0.5 * length)
+def fade_length(length: float, width: float, taper: float, swells: bool = False) -> float:
+    """Over how much of its length [m] a furrow comes to full depth at either end [m]. swells: whether it has a swell."""
+    return min(max((_SWELLING if swells else _FADE_WIDTHS) * width, taper * length), 0.5 * length)
 
 
 def _divided(vectors: Floats, lengths: Floats) -> Floats:

@@ -61,7 +61,7 @@ def fit_face(
 
 
 def _strongest(groove: Groove) -> float:
-    return groove.floor[0] * len(groove.controls)
+    return groove.floor * len(groove.controls)
 
 
 def _nearest_known(furrow: Furrow, lines: Sequence[Floats], taken: set[int]) -> int | None:

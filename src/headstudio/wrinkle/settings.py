@@ -50,4 +50,4 @@ class WrinkleSettings:
 
     def lines(self) -> tuple[tuple[Any, ...], ...]:
         """Where the furrows run, how wide they are, how they end: all that the skin has to be prepared for again."""
-        return tuple((f.controls, f.width, f.taper, f.strands, f.swell) for f in self.furrow_set())
+        return tuple((f.controls, f.width, f.taper, f.section, f.swell) for f in self.furrow_set())

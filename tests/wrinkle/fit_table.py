@@ -1,0 +1,108 @@
+"""A table of fits to strange scans: distances before and after, how near anything could come, and where the rest lies.
+
+    hs py -m tests.wrinkle.fit_table 1 2 3 [--keep FOLDER]
+
+Scans are drawn from their number: heads, places, rims, crossings, close parallels. Those from 1 on were looked at while
+the fit was made; those from 201 on were not.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from headstudio.commands.compare_scan import fitted, measure
+from headstudio.scene.builder import Builder
+from headstudio.scene.document import Document
+from headstudio.scene.settings import HeadSettings
+from headstudio.wrinkle.comparison import compare
+
+from .strange_scans import PLACES, Strange, strange_scan
+
+HEADS = (
+    HeadSettings(source="mannequin"),
+    HeadSettings(source="makehuman", age=0.2),
+    HeadSettings(source="makehuman", age=0.8, masculine=1.0),
+)
+RIMS = (0.0, 0.3, 0.5, 1.0)
+
+
+def drawn(number: int) -> tuple[HeadSettings, Strange]:
+    """The head and the recipe of a scan by its number."""
+    rng = np.random.default_rng(number)
+    rims, head = RIMS[number % 4], HEADS[number % 3]
+    kind = ("one above the other", "crossing", "close")[number // 4 % 3]
+    place = str(rng.choice(list(PLACES)))
+    radius = {"forehead": 0.045, "face": 0.065}.get(place, 0.035) * rng.uniform(0.85, 1.15)
+    lines = int(rng.integers(1, 9 if radius < 0.05 else 13))
+    spread = 1.5
+    if kind == "close":
+        # Some 5 to 9 mm apart.
+        lines = max(lines, 2)
+        spread = rng.uniform(5e-3, 9e-3) * lines / (radius - 0.012)
+    recipe = Strange(
+        number,
+        place=place,
+        radius=radius,
+        lines=lines,
+        spread=spread,
+        rims=rims,
+        rim_at=rng.uniform(2.0, 3.0),
+        rim_width=rng.uniform(0.6, 1.4),
+        wander=rng.uniform(0.5e-3, 3.5e-3),
+        crossing=kind == "crossing",
+        smooth=bool(rng.random() < 0.5),
+        added=bool(rng.random() < 0.5),
+        varying=rng.uniform(0.0, 0.5),
+        spacing=rng.uniform(0.8e-3, 1.6e-3),
+    )
+    return head, recipe
+
+
+def row(number: int, keep: Path | None, show: Callable[[str], object]) -> None:
+    head_settings, recipe = drawn(number)
+    document = replace(Document(), head=head_settings)
+    builder = Builder()
+    head = builder.head(document.head)
+    scan = strange_scan(head, recipe)
+    clean = strange_scan(head, replace(recipe, noise=0.0))
+    floor = compare(clean, scan).distances().mean
+    start = time.process_time()
+    changed, laid, _ = fitted(document, scan, builder)
+    seconds = time.process_time() - start
+    report = measure(changed, scan, builder, laid)
+    figures = []
+    for where in ("the whole overlap", "around its wrinkles"):
+        without, with_ = report.rows[where]
+        figures.append(f"{1e3 * without.mean:.3f} {1e3 * with_.mean:.3f} {1 - with_.mean / without.mean:4.0%}")
+    best = 1 - floor / report.rows["the whole overlap"][0].mean
+    kind = (
+        "crossing"
+        if recipe.crossing
+        else f"{recipe.spread * (recipe.radius - 0.012) / recipe.lines * 1e3:.0f} mm apart"
+    )
+    show(
+        f"{number:4d} {head_settings.source:9s} {recipe.place:8s} {recipe.lines:2d} lines {kind:11s} rims {recipe.rims:.1f} | "
+        f"{figures[0]} (noise {1e3 * floor:.3f} {best:.0%}) | around {figures[1]} | {seconds:.0f} s\n"
+    )
+    if keep is not None:
+        keep.mkdir(parents=True, exist_ok=True)
+        np.savez(keep / f"{number}.npz", scan=scan.vertices, faces=scan.faces, laid=laid)
+        from headstudio.wrinkle.furrow import encode_furrows
+
+        (keep / f"{number}.json").write_bytes(encode_furrows(changed.wrinkle.furrows))
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("numbers", type=int, nargs="+")
+    parser.add_argument("--keep", type=Path)
+    chosen = parser.parse_args()
+    for each in chosen.numbers:
+        row(each, chosen.keep, sys.stdout.write)
