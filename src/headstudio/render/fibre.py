@@ -12,6 +12,7 @@ Angles: theta is the inclination to the plane across the hair, phi the azimuth b
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.special import i0e
@@ -165,8 +166,9 @@ class FibreTables:
     albedo: Floats
 
 
+@lru_cache(maxsize=2)
 def fibre_tables(fibre: Fibre) -> FibreTables:
-    """The tables of a fibre. Absorption runs from 0 to infinity as x / (1 + x)."""
+    """The tables of a fibre, the same object for the same fibre. Absorption runs from 0 to infinity as x / (1 + x)."""
     phi = (np.arange(AZIMUTHS) + 0.5) / AZIMUTHS * np.pi
     sine = (np.arange(SINES) + 0.5) / SINES
     coded = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)

@@ -10,38 +10,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.frame import HeadFrame
-from ..head.head import Head
 from ..scene.settings import TONE_MAPS, Camera, Look
 from ..scene.skin_settings import SkinSettings
 from ..scene.stage import Stage
 from ..wrinkle.limb_skin import PosedLimb
 from .adornments import AdornmentPrograms, Adornments
 from .body import Body, BodyPrograms
-from .fibre import Fibre, colour_absorption
 from .hair import Hair, HairPrograms
 from .limb_body import LimbBody
 from .living_body import LivingBody
 from .overlays import OverlayPass
 from .samples import SampledCanvas, samples_of
-from .scene_block import SCENE_DTYPE, linear, scene_block, sky_and_ground
+from .scene_block import SCENE_DTYPE, linear, scene_block
 from .screen import ScreenPasses
 from .skin_body import SkinBody, SkinPrograms
-from .skin_paint import coarse_faces
-from .sky_light import Sky, SkyLight, SkyPrograms
-from .strand_detail import FINE, QUICK, StrandSurvey
-from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
-from .strand_picture import FINENESS, STEPS, Progress
+from .strand_hair import StrandHair
+from .strand_layer import StoppedError, StrandLayer
+from .strand_picture import FINENESS, Progress
 from .targets import LightTargets, PictureTargets, Size, light_targets, picture_targets
 from .timing import StageTimer
 from .view import View, camera_view, light_view
-
-# Details of the body below this size [m] do not matter to the soft light between strands.
-_BODY_DETAIL = 0.006
-
-
-class _StoppedError(Exception):
-    """Somebody stopped a final picture."""
-
 
 _AS_IT_COMES = SkinSettings()
 
@@ -59,19 +47,14 @@ class Renderer:
         self._body_programs = BodyPrograms(context)
         self._skin_programs = SkinPrograms(context, self._body_programs)
         self._hair_programs = HairPrograms(context)
-        self._strand_programs = StrandPrograms(context)
+        self._strands = StrandLayer(context)
         self._adornment_programs = AdornmentPrograms(context)
         self._overlays = OverlayPass(context)
-        self._sky_programs = SkyPrograms(context)
-        self._sky: SkyLight | None = None
-        self._sky_around: tuple[StrandHair, Head] | None = None
-        self._sky_in: tuple[object, ...] | None = None
         self._screens = ScreenPasses(context, "reduce", "develop")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | LivingBody | None = None
         self._limb: LimbBody | None = None
         self._hair: Hair | None = None
-        self._strands: StrandHair | None = None
         self._adornments: Adornments | None = None
         self._maps: LightTargets | None = None
         self._final: Progress | None = None
@@ -165,7 +148,7 @@ class Renderer:
         self._final = progress or (lambda done, of: True)
         try:
             return self.render(stage, look, camera, size, supersampling=FINENESS, skin=skin)
-        except _StoppedError:
+        except StoppedError:
             return None
         finally:
             self._final = None
@@ -184,7 +167,7 @@ class Renderer:
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
             view = camera_view(camera, targets.size[0] / targets.size[1])
-            strands = self._pull_strands(stage, look, view, targets.scene.height)
+            strands = self._strands.pull(stage, look, view, targets.scene.height, final=self._final is not None)
             worn = self._pull_adornments(stage, look)
             maps = self._maps_for(look.shadow_size)
             light = self._light(stage, look, hair, strands)
@@ -195,8 +178,7 @@ class Renderer:
         with timer.stage("light"):
             self._shed_light(hair, light, look, maps)
             if strands is not None:
-                strands.shed_light(light, stage.frame, maps, look.shadow_size)
-                self._let_sky_in(strands, stage, look)
+                self._strands.shed_light(strands, stage, light, look, maps)
         maps.depth.use(0)
         maps.map.use(1)
         self._hair_programs.strands.seen(view, float(view.depth(stage.frame.translation)), targets.scene.height).use(2)
@@ -209,7 +191,7 @@ class Renderer:
                 self._draw_hair(hair, view, look, targets, canvas)
         if strands is not None:
             with timer.stage("strands"):
-                self._draw_strands(strands, stage, view, look, canvas, maps)
+                self._strands.draw(strands, stage, view, look, canvas, maps, self._final)
         with timer.stage("overlays"), self.context.scope(canvas, moderngl.PROGRAM_POINT_SIZE):
             self._overlays.draw(stage.overlays)
         with timer.stage("develop"):
@@ -239,42 +221,12 @@ class Renderer:
         self._body = known
         return known
 
-    def _pull_strands(self, stage: Stage, look: Look, view: View, height: int) -> StrandHair | None:
-        if stage.strands is None or stage.strands.count == 0 or not look.show_hair:
-            return None
-        known = self._strands
-        survey = known.survey if known and known.survey.strands is stage.strands else StrandSurvey(stage.strands)
-        shown, detail = (stage.strands.count, FINE) if self._final else (look.strands_shown, QUICK)
-        sparse = survey.bend < detail.bend_pixels * survey.pixel(view, stage.frame, height)
-        if known is None or not known.suits(survey, shown, detail, sparse):
-            known = StrandHair(self.context, self._strand_programs, survey, shown, detail, sparse)
-        elif known.survey is not survey:
-            known.recolour(survey)
-        self._strands = known
-        return known
-
     def _pull_adornments(self, stage: Stage, look: Look) -> Adornments | None:
         if not stage.adornments or not look.show_hair:
             return None
         if self._adornments is None or self._adornments.worn is not stage.adornments:
             self._adornments = Adornments(self.context, self._adornment_programs, stage.adornments)
         return self._adornments
-
-    def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
-        """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
-        material, skin = strand_material(look), stage.head.skin
-        if self._sky is None or self._sky_around != (strands, stage.head):
-            opacity, faces = self._strand_programs.opacity, coarse_faces(skin, _BODY_DETAIL)
-            self._sky = SkyLight(self.context, self._sky_programs, opacity, skin.vertices, faces, strands.detail)
-            strands.see_from_sky(self._sky)
-            self._sky_around, self._sky_in = (strands, stage.head), None
-        wanted = (strands.survey, look.ambient, look.skin_colour, material.absorption, look.strand_roughness)
-        if self._sky_in == wanted:
-            return
-        sky = Sky(*sky_and_ground(look), np.array([0.0, 1.0, 0.0]))
-        self._sky.see_body(0.5 * linear(look.skin_colour) * np.broadcast_to(sky.above, skin.vertices.shape))
-        strands.take_soft_light(self._sky, sky, strands.lost(material))
-        self._sky_in = wanted
 
     def _light(self, stage: Stage, look: Look, hair: Hair | None, strands: StrandHair | None) -> View:
         low, high = stage.head.skin.bounds
@@ -351,29 +303,6 @@ class Renderer:
             self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             hair.draw(view, look, targets.distance)
 
-    def _draw_strands(
-        self,
-        strands: StrandHair,
-        stage: Stage,
-        view: View,
-        look: Look,
-        canvas: moderngl.Framebuffer,
-        maps: LightTargets,
-    ) -> None:
-        maps.depth.use(0)
-        maps.map.use(1)
-        strands.look_from(view, stage.frame, canvas.height)
-        strands.shade(strand_material(look))
-        with self.context.scope(canvas, moderngl.BLEND | moderngl.DEPTH_TEST):
-            canvas.depth_mask = False
-            self.context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-            steps = STEPS if self._final else 1
-            for done in strands.draw(view, stage.frame, canvas.height, steps, canvas.samples):
-                if self._final:
-                    self.context.finish()
-                    if not self._final(done, steps):
-                        raise _StoppedError
-
     def _develop_picture(self, look: Look, targets: PictureTargets, canvas: moderngl.Framebuffer) -> None:
         width, height = targets.size
         if canvas is not targets.scene:
@@ -404,10 +333,3 @@ class Renderer:
         if self._maps is None or self._maps.size != size:
             self._maps = light_targets(self.context, size)
         return self._maps
-
-
-def strand_material(look: Look) -> StrandMaterial:
-    """The strands of a look: hair of its colour where they have none of their own."""
-    fibre = Fibre(roughness=look.strand_roughness)
-    red, green, blue = colour_absorption(linear(look.hair_colour), fibre.radial_roughness)
-    return StrandMaterial(fibre, (float(red), float(green), float(blue)), look.strand_model == "fibre")

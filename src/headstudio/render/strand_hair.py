@@ -14,7 +14,8 @@ from ..head.mesh import Floats
 from ..wisp.strands import Singles
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
-from .fibre import Fibre, FibreTables, colour_absorption, colour_slope, fibre_tables, passed_on
+from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, passed_on
+from .fibre_textures import FibreTextures
 from .light_volume import LightVolume, grid_around
 from .receivers import receive
 from .screen import ScreenPasses
@@ -54,6 +55,7 @@ class StrandPrograms:
         self.opacity = OpacityPrograms(context)
         self.ribbon = load_program(context, "strands/ribbon.vert", "strands/ribbon.frag")
         self.screens = ScreenPasses(context, "shade", "light_map", "sunlit", room="strands")
+        self.fibre = FibreTextures(context)
 
 
 class StrandHair:
@@ -101,8 +103,6 @@ class StrandHair:
         self._hair_view: View
         self._lit_from: tuple[bytes, bytes, int] | None = None
         self._soft: LightVolume | None = None
-        self._fibre: Fibre | None = None
-        self._tables: FibreTables
 
     def suits(self, survey: StrandSurvey, shown: int, detail: StrandDetail, sparse: bool) -> bool:
         """True if these are strands of that shape in that detail; their colours may be others."""
@@ -175,11 +175,10 @@ class StrandHair:
 
     def lost(self, material: StrandMaterial) -> Floats:
         """Of light that meets a strand, the part that does not go on, RGB, in the mean over the hair."""
-        self._prepare_fibre(material.fibre)
         absorption = np.array(material.absorption)
         if self._mean_colour is not None:
             absorption = colour_absorption(self._mean_colour, material.fibre.radial_roughness)
-        return 1.0 - passed_on(self._tables, absorption)
+        return 1.0 - passed_on(fibre_tables(material.fibre), absorption)
 
     def sunlit(self, places: Floats, maps: LightTargets, lost: Floats) -> Floats:
         """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3): RGB, (n, 3)."""
@@ -193,28 +192,21 @@ class StrandHair:
         """Work out the radiance of every point that is drawn; texture 0 is the shadow map, 1 the light map."""
         assert self.opacity is not None
         assert self._soft is not None
-        self._prepare_fibre(material.fibre)
         textures = self._textures
         textures.points.use(2)
         textures.tangents.use(3)
         if textures.colour is not None:
             textures.colour.use(4)
-        self._around.use(5)
-        self._spread.use(6)
-        self._albedo.use(7)
         fibre = material.fibre
         uniforms = {
             "shadow_map": 0, "light_map": 1, "points": 2, "tangents": 3, "hair_colours": 4,
-            "around_table": 5, "spread_table": 6, "albedo_table": 7,
             "light_widening": self.widening(self._lit_by),
             "light_points": int(self._first[self._lit_by]),
             "coloured": textures.colour is not None,
             "hair_absorption": material.absorption,
             "colour_slope": colour_slope(fibre.radial_roughness),
-            "variances": tuple(fibre.variances),
-            "tilt_cos": tuple(np.cos(fibre.tilts)),
-            "tilt_sin": tuple(np.sin(fibre.tilts)),
             "fibre_model": material.fibre_model,
+            **self._programs.fibre.bind(fibre, 5),
         }  # fmt: skip
         rows = -(-int(self._first[self._drawn]) // POINT_ROW)
         with self._context.scope(self._shade_target, moderngl.NOTHING):
@@ -249,24 +241,6 @@ class StrandHair:
             self._programs.ribbon, points=2, tangents=3, shades=4, widening=self.widening(self._drawn),
             metres_per_pixel=2.0 / (view.focal * height), room=_ROOM if samples < 2 else _ROOM + _TO_SAMPLE,
         )  # fmt: skip
-
-    def _prepare_fibre(self, fibre: Fibre) -> None:
-        if fibre == self._fibre:
-            return
-        tables = self._tables = fibre_tables(fibre)
-        self._around, self._spread = (self._volume(values) for values in (tables.around, tables.spread))
-        absorptions, sines, parts = tables.albedo.shape
-        self._albedo = self._context.texture(
-            (sines, absorptions), parts, tables.albedo.astype("f4", order="C"), dtype="f4"
-        )
-        self._albedo.repeat_x = self._albedo.repeat_y = False
-        self._fibre = fibre
-
-    def _volume(self, values: Floats) -> moderngl.Texture3D:
-        depth, height, width, parts = values.shape
-        volume = self._context.texture3d((width, height, depth), parts, values.astype("f2", order="C"), dtype="f2")
-        volume.repeat_x = volume.repeat_y = volume.repeat_z = False
-        return volume
 
 
 def _pose(frame: HeadFrame) -> Floats:

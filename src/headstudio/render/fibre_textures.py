@@ -1,0 +1,47 @@
+"""The scattering of a fibre on the graphics card: its tables as textures, made once and kept while hair comes and goes."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from ..head.mesh import Floats
+from .context import release
+from .fibre import Fibre, fibre_tables
+
+
+class FibreTextures:
+    """The tables of the fibre that was wanted last."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._fibre: Fibre | None = None
+        self._textures: list[moderngl.Texture | moderngl.Texture3D] = []
+
+    def bind(self, fibre: Fibre, first_unit: int) -> dict[str, object]:
+        """Bind the tables of ``fibre`` to three units from ``first_unit`` on; returns the uniforms of common/fibre.glsl."""
+        if fibre != self._fibre:
+            self._make(fibre)
+        for k, texture in enumerate(self._textures):
+            texture.use(first_unit + k)
+        return {
+            "around_table": first_unit, "spread_table": first_unit + 1, "albedo_table": first_unit + 2,
+            "variances": tuple(fibre.variances),
+            "tilt_cos": tuple(np.cos(fibre.tilts)),
+            "tilt_sin": tuple(np.sin(fibre.tilts)),
+        }  # fmt: skip
+
+    def _make(self, fibre: Fibre) -> None:
+        release(self._context, *self._textures)
+        tables = fibre_tables(fibre)
+        absorptions, sines, parts = tables.albedo.shape
+        albedo = self._context.texture((sines, absorptions), parts, tables.albedo.astype("f4", order="C"), dtype="f4")
+        albedo.repeat_x = albedo.repeat_y = False
+        self._textures = [self._volume(tables.around), self._volume(tables.spread), albedo]
+        self._fibre = fibre
+
+    def _volume(self, values: Floats) -> moderngl.Texture3D:
+        depth, height, width, parts = values.shape
+        volume = self._context.texture3d((width, height, depth), parts, values.astype("f2", order="C"), dtype="f2")
+        volume.repeat_x = volume.repeat_y = volume.repeat_z = False
+        return volume

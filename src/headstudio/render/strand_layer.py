@@ -1,0 +1,114 @@
+"""Strands in the pictures of a stage: what is kept of them from one picture to the next, and the passes they take part in."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from ..head.head import Head
+from ..scene.settings import Look
+from ..scene.stage import Stage
+from .fibre import Fibre, colour_absorption
+from .scene_block import linear, sky_and_ground
+from .skin_paint import coarse_faces
+from .sky_light import Sky, SkyLight, SkyPrograms
+from .strand_detail import FINE, QUICK, StrandDetail, StrandSurvey
+from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
+from .strand_picture import STEPS, Progress
+from .targets import LightTargets
+from .view import View
+
+# Details of the body below this size [m] do not matter to the soft light between strands.
+_BODY_DETAIL = 0.006
+
+
+class StoppedError(Exception):
+    """Somebody stopped a final picture."""
+
+
+class StrandLayer:
+    """The strands of the stage that was drawn last, and the sky that lights them."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._programs = StrandPrograms(context)
+        self._sky_programs = SkyPrograms(context)
+        self._strands: StrandHair | None = None
+        # The sky over a head, the hair that stands before it, and what the light in that hair was worked out from.
+        self._sky: SkyLight | None = None
+        self._sky_of: tuple[Head, StrandDetail] | None = None
+        self._body_lit: tuple[object, ...] | None = None
+        self._seen: StrandHair | None = None
+        self._lit: tuple[object, ...] | None = None
+
+    def pull(self, stage: Stage, look: Look, view: View, height: int, *, final: bool) -> StrandHair | None:
+        """The strands to draw, sent again only where they are others; ``final``: all of them, in the finest detail."""
+        if stage.strands is None or stage.strands.count == 0 or not look.show_hair:
+            return None
+        known = self._strands
+        survey = known.survey if known and known.survey.strands is stage.strands else StrandSurvey(stage.strands)
+        shown, detail = (stage.strands.count, FINE) if final else (look.strands_shown, QUICK)
+        sparse = survey.bend < detail.bend_pixels * survey.pixel(view, stage.frame, height)
+        if known is None or not known.suits(survey, shown, detail, sparse):
+            known = StrandHair(self._context, self._programs, survey, shown, detail, sparse)
+        elif known.survey is not survey:
+            known.recolour(survey)
+        self._strands = known
+        return known
+
+    def shed_light(self, strands: StrandHair, stage: Stage, light: View, look: Look, maps: LightTargets) -> None:
+        """Light and sky see the strands; what passes through them goes into the light map."""
+        strands.shed_light(light, stage.frame, maps, look.shadow_size)
+        self._let_sky_in(strands, stage, look)
+
+    def draw(
+        self, strands: StrandHair, stage: Stage, view: View, look: Look, canvas: moderngl.Framebuffer,
+        maps: LightTargets, progress: Progress | None,
+    ) -> None:  # fmt: skip
+        """Shade the strands and blend them over the canvas: in steps of which ``progress`` is told, if there is one.
+
+        Raises StoppedError where it says no.
+        """
+        maps.depth.use(0)
+        maps.map.use(1)
+        strands.look_from(view, stage.frame, canvas.height)
+        strands.shade(strand_material(look))
+        with self._context.scope(canvas, moderngl.BLEND | moderngl.DEPTH_TEST):
+            canvas.depth_mask = False
+            self._context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            steps = STEPS if progress else 1
+            for done in strands.draw(view, stage.frame, canvas.height, steps, canvas.samples):
+                if progress:
+                    self._context.finish()
+                    if not progress(done, steps):
+                        raise StoppedError
+
+    def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
+        """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
+        material, skin = strand_material(look), stage.head.skin
+        if self._sky is None or self._sky_of != (stage.head, strands.detail):
+            faces = coarse_faces(skin, _BODY_DETAIL)
+            self._sky = SkyLight(
+                self._context, self._sky_programs, self._programs.opacity, skin.vertices, faces, strands.detail
+            )
+            self._sky_of = (stage.head, strands.detail)
+            self._seen = self._body_lit = None
+        if self._seen is not strands:
+            strands.see_from_sky(self._sky)
+            self._seen, self._lit = strands, None
+        wanted = (strands.survey, look.ambient, look.skin_colour, material.absorption, look.strand_roughness)
+        if self._lit == wanted:
+            return
+        sky = Sky(*sky_and_ground(look), np.array([0.0, 1.0, 0.0]))
+        if self._body_lit != (look.ambient, look.skin_colour):
+            self._sky.see_body(0.5 * linear(look.skin_colour) * np.broadcast_to(sky.above, skin.vertices.shape))
+            self._body_lit = (look.ambient, look.skin_colour)
+        strands.take_soft_light(self._sky, sky, strands.lost(material))
+        self._lit = wanted
+
+
+def strand_material(look: Look) -> StrandMaterial:
+    """The strands of a look: hair of its colour where they have none of their own."""
+    fibre = Fibre(roughness=look.strand_roughness)
+    red, green, blue = colour_absorption(linear(look.hair_colour), fibre.radial_roughness)
+    return StrandMaterial(fibre, (float(red), float(green), float(blue)), look.strand_model == "fibre")
