@@ -274,18 +274,18 @@ class TestOnStage:
             for colour in ([0.1, 0.06, 0.04], [0.6, 0.1, 0.05])
         )
         before = drawn(brown)
-        hair = renderer._strands
+        hair = renderer._strands.hair
         recoloured = drawn(red)
-        assert renderer._strands is hair
-        renderer._strands = None
+        assert renderer._strands.hair is hair
+        renderer._strands.hair = None
         np.testing.assert_array_equal(drawn(red), recoloured)
         assert np.abs(recoloured - before).max() > 20
 
     def test_points_are_left_out_where_nobody_sees_it(self, renderer: Renderer, egg: Head) -> None:
         strands = fur(200, points=17)
         renderer.render(Stage(egg, strands=strands), Look(), self.camera, (64, 64))
-        assert renderer._strands is not None
-        assert renderer._strands.sparse
+        assert renderer._strands.hair is not None
+        assert renderer._strands.hair.sparse
         assert every_second(strands).counts.tolist() == [9] * 200
         np.testing.assert_array_equal(every_second(strands).points[8::9], strands.points[16::17])
 

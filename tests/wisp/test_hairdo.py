@@ -10,7 +10,7 @@ from headstudio.head.frame import HeadFrame
 from headstudio.head.scalp_settings import GrayImage
 from headstudio.wisp import hairdo as hairdo_module
 from headstudio.wisp.facial_hair import facial_patches
-from headstudio.wisp.hairdo import Stylist, style_hair
+from headstudio.wisp.hairdo import Stylist
 from headstudio.wisp.joining import join_strands
 from headstudio.wisp.settings import FACIAL_HAIR, PROTOTYPES, FacialHairSettings, HairColourSettings, WispSettings
 from headstudio.wisp.styling_settings import StylingSettings
@@ -22,7 +22,7 @@ SMALL = WispSettings(wisps=200, strands=20_000, points=12, length=0.2, segments=
 
 def style(settings: WispSettings = SMALL, strands: int | None = None, **colour):
     _, scalp, surroundings = body()
-    return style_hair(scalp, surroundings, settings, HairColourSettings(**colour), StylingSettings(), strands)
+    return Stylist().style(scalp, surroundings, settings, HairColourSettings(**colour), StylingSettings(), strands)
 
 
 def points_of(strands) -> np.ndarray:
@@ -179,7 +179,7 @@ class TestStylist:
             rest = (HairColourSettings(), StylingSettings(), 300)
             changed = dataclasses.replace(curly, **{name: value})
             made = stylist.style(scalp, surroundings, changed, *rest)
-            anew = style_hair(scalp, surroundings, changed, *rest)
+            anew = Stylist().style(scalp, surroundings, changed, *rest)
             assert np.array_equal(made.strands.points, anew.strands.points), name
             assert np.array_equal(made.strands.radius, anew.strands.radius), name
 

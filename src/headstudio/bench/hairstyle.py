@@ -13,7 +13,7 @@ from ..render.renderer import Renderer
 from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.stage import Stage
-from ..wisp.hairdo import Hairdo, style_hair
+from ..wisp.hairdo import Hairdo, Stylist
 from .memory import peak_memory
 
 SIZE = (512, 512)
@@ -79,7 +79,7 @@ def _styled(document: Document, builder: Builder, strands: int | None) -> tuple[
     scalp, surroundings = builder.scalp(document), builder.surroundings(document)
     marks: list[tuple[str, float]] = []
     start = time.perf_counter()
-    hairdo = style_hair(
+    hairdo = Stylist().style(
         scalp,
         surroundings,
         document.wisp,

@@ -27,13 +27,13 @@ class StoppedError(Exception):
 
 
 class StrandLayer:
-    """The strands of the stage that was drawn last, and the sky that lights them."""
+    """The strands of the stage that was drawn last, ``hair``, and the sky that lights them."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._programs = StrandPrograms(context)
         self._sky_programs = SkyPrograms(context)
-        self._strands: StrandHair | None = None
+        self.hair: StrandHair | None = None
         # The sky over a head, the hair that stands before it, and what the light in that hair was worked out from.
         self._sky: SkyLight | None = None
         self._sky_of: tuple[Head, StrandDetail] | None = None
@@ -45,7 +45,7 @@ class StrandLayer:
         """The strands to draw, sent again only where they are others; ``final``: all of them, in the finest detail."""
         if stage.strands is None or stage.strands.count == 0 or not look.show_hair:
             return None
-        known = self._strands
+        known = self.hair
         survey = known.survey if known and known.survey.strands is stage.strands else StrandSurvey(stage.strands)
         shown, detail = (stage.strands.count, FINE) if final else (look.strands_shown, QUICK)
         sparse = survey.bend < detail.bend_pixels * survey.pixel(view, stage.frame, height)
@@ -53,7 +53,7 @@ class StrandLayer:
             known = StrandHair(self._context, self._programs, survey, shown, detail, sparse)
         elif known.survey is not survey:
             known.recolour(survey)
-        self._strands = known
+        self.hair = known
         return known
 
     def shed_light(self, strands: StrandHair, stage: Stage, light: View, look: Look, maps: LightTargets) -> None:

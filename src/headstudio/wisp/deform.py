@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -34,31 +36,65 @@ class DeformReport:
     queues: tuple[QueueReport, ...] = ()
 
 
+class Deformer:
+    """Deforms hair again and again, and does again only what a change concerns: hair that was let down stays so while what is
+    done to it afterwards changes, and so do the operations before the first that is another.
+    """
+
+    def __init__(self) -> None:
+        # Hair let down, and after each operation: from what, the flow as it was then, and what became of the queues.
+        self._known: list[tuple[Any, Flow, list[QueueReport]]] = []
+
+    def deform(
+        self, outlines: Outlines, surroundings: Surroundings, styling: StylingSettings, scalp: Scalp
+    ) -> tuple[Outlines, DeformReport]:
+        """``outlines`` at rest, deformed by the styling force, by each other and by the head, and dressed.
+
+        First all hair is let down (Algorithm 1). Then the operations are carried out one after the other: the wisps that
+        an operation selects are picked up, their hair leaves the density field, and they are laid again under their
+        queues, among all hair that lies as it lay. So an operation moves no hair but its own, not by a hair's breadth,
+        and what was done before it stays. Hair that several operations select belongs to the last.
+        """
+        uv, tau = scalp.locate(outlines.roots), styling.density_threshold
+        longest = float(outlines.counts.max(initial=0) * outlines.segment)
+        steps = [_members(queues_of(operation, surroundings, longest), uv) for operation in styling.operations]
+        # Nobody sees how hair lies that is all picked up at once.
+        in_vain = bool(steps) and sum(len(wisps) for _, wisps in steps[0]) == len(uv)
+        free = replace(styling, operations=(), cuts=(), accessories=())
+
+        def let_down() -> tuple[Flow, list[QueueReport]]:
+            density = DensityField.empty(surroundings, scalp.area, int(outlines.strands.sum()))
+            flow = Flow(outlines, density, force_field(free, surroundings), styling.bending_stiffness, tau)
+            if not in_vain:
+                _let_down(flow, uv, tau)
+            return flow, []
+
+        flow = self._step(0, (outlines, surroundings, free, scalp, in_vain), let_down)
+        for k, (operation, queues) in enumerate(zip(styling.operations, steps)):
+
+            def dress(before: Flow = flow, queues: list[tuple[Queue, Ints]] = queues) -> tuple[Flow, list[QueueReport]]:
+                after = before.copy()
+                after.pick_up(np.concatenate([wisps for _, wisps in queues]))
+                return after, run(queues, after, tau)
+
+            flow = self._step(k + 1, operation, dress)
+        del self._known[len(steps) + 1 :]
+        tally, reports = flow.tally, [report for _, _, some in self._known for report in some]
+        return flow.result(), DeformReport(tally.laid, tally.colliding, tally.unresolved, tuple(reports))
+
+    def _step(self, k: int, wanted: Any, make: Callable[[], tuple[Flow, list[QueueReport]]]) -> Flow:
+        """The flow after step ``k``, all before it being known: the one there is if it was made from the same."""
+        if k == len(self._known) or self._known[k][0] != wanted:
+            del self._known[k:]
+            self._known.append((wanted, *make()))
+        return self._known[k][1]
+
+
 def deform(
     outlines: Outlines, surroundings: Surroundings, styling: StylingSettings, scalp: Scalp
 ) -> tuple[Outlines, DeformReport]:
-    """``outlines`` at rest, deformed by the styling force, by each other and by the head, and dressed.
-
-    First all hair is let down (Algorithm 1). Then the operations are carried out one after the other: the wisps that an
-    operation selects are picked up, their hair leaves the density field, and they are laid again under their queues,
-    among all hair that lies as it lay. So an operation moves no hair but its own, not by a hair's breadth, and what was
-    done before it stays. Hair that several operations select belongs to the last.
-    """
-    uv = scalp.locate(outlines.roots)
-    density = DensityField.empty(surroundings, scalp.area, int(outlines.strands.sum()))
-    field = force_field(styling, surroundings)
-    tau = styling.density_threshold
-    flow = Flow(outlines, density, field, styling.bending_stiffness, tau)
-    longest = float(outlines.counts.max(initial=0) * outlines.segment)
-    steps = [_members(queues_of(operation, surroundings, longest), uv) for operation in styling.operations]
-    if not (steps and sum(len(wisps) for _, wisps in steps[0]) == len(uv)):
-        _let_down(flow, uv, tau)
-    reports = []
-    for queues in steps:
-        flow.pick_up(np.concatenate([wisps for _, wisps in queues]))
-        reports += run(queues, flow, tau)
-    tally = flow.tally
-    return flow.result(), DeformReport(tally.laid, tally.colliding, tally.unresolved, tuple(reports))
+    """As ``Deformer.deform``, once."""
+    return Deformer().deform(outlines, surroundings, styling, scalp)
 
 
 def _let_down(flow: Flow, uv: Floats, tau: float) -> None:

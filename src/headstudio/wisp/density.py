@@ -71,6 +71,6 @@ class DensityField:
         offset = np.sqrt(0.5) * radii[:, None, None] * across
         points = np.concatenate([middles[:, None] + offset, middles[:, None] - offset], axis=1)
         corners, place = self.grid.cells(points.reshape(-1, 3))
-        share = np.repeat((0.25 * self.unit * amounts).astype(np.float32), 4)[:, None] * corner_weights(place)
+        share = np.repeat((0.25 * self.unit * amounts).astype(np.float32), 4) * corner_weights(place)
         # numpy 2 adds at so few nodes faster than a count over the grid, which looks at every node for every joint.
         np.add.at(self.hair, corners.ravel(), share.ravel())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from dataclasses import dataclass, replace
 
@@ -53,6 +54,15 @@ class Flow:
         self._tau = tau
         self.stiffness = joint_stiffness(kappa, outlines.segment)
         self._amounts = (outlines.strands * outlines.segment).astype(np.float64)
+
+    def copy(self) -> Flow:
+        """The same hair, laid as far, to go on with on its own."""
+        other = copy.copy(self)
+        for name in ("frames", "laid", "ends", "_widest", "_turned"):
+            setattr(other, name, getattr(self, name).copy())
+        other.tally = replace(self.tally)
+        other._density = replace(self._density, hair=self._density.hair.copy())
+        return other
 
     def unfinished(self, wisps: Ints) -> Ints:
         """Those of ``wisps`` that have segments left to lay."""

@@ -64,48 +64,48 @@ class Grid:
         return (_STEPS @ self._strides).astype(np.intp)
 
     def cells(self, points: Floats | Singles) -> tuple[Corners, Singles]:
-        """Numbers of the eight nodes around ``points`` [m], (k, 3): (k, 8); and where in the cell they are, 0 to 1, (k, 3)."""
-        at = (points.astype(np.float32, copy=False) - self._origin) * np.float32(1 / self.spacing)
-        np.clip(at, 0, self._last, out=at)
-        cell = at.astype(np.intp)
+        """Numbers of the eight nodes around ``points`` [m], (k, 3): (8, k); and where in the cell they are, 0 to 1, (3, k).
+
+        Points are counted along the last axis, so that numpy has long rows to work on.
+        """
+        at = np.subtract(points.T, self._origin[:, None], dtype=np.float32)
+        at *= np.float32(1 / self.spacing)
+        np.maximum(at, 0, out=at)
+        np.minimum(at, self._last[:, None], out=at)
+        cell = at.astype(np.int32)
         at -= cell
-        first = (cell[:, 0] * self.shape[1] + cell[:, 1]) * self.shape[2] + cell[:, 2]
-        return first[:, None] + self._corner_numbers, at
+        first = (cell[0] * np.intp(self.shape[1]) + cell[1]) * np.intp(self.shape[2]) + cell[2]
+        return first + self._corner_numbers[:, None], at
 
     def value(self, values: Singles, points: Floats | Singles) -> Singles:
         """``values`` at the nodes, (size,) or (size, d), at ``points`` [m], (k, 3): (k,) or (k, d)."""
         corners, at = self.cells(points)
-        if values.ndim == 1:
-            return np.einsum("ij,ij->i", corner_weights(at), values[corners])
-        return np.matmul(corner_weights(at)[:, None, :], values[corners])[:, 0]
+        weights = corner_weights(at)
+        shared = values[corners]
+        shared *= weights if values.ndim == 1 else weights[:, :, None]
+        total: Singles = shared.sum(axis=0)
+        return total
 
     def value_and_gradient(self, values: Singles, points: Floats | Singles) -> tuple[Singles, Singles]:
         """``values`` at the nodes, (size,), at ``points``, (k,), and their gradient there [1/m], (k, 3)."""
-        corners, at = self.cells(points)
-        here = values[corners].reshape(-1, 2, 2, 2)
-        x, y, z = (at[:, k, None] for k in range(3))
-        along_x = here[:, 1] - here[:, 0]
-        plane = here[:, 0] + x[..., None] * along_x
-        along_y = plane[:, 1] - plane[:, 0]
-        line = plane[:, 0] + y * along_y
-        along_z = line[:, 1] - line[:, 0]
-        slope_x = along_x[:, 0] + y * (along_x[:, 1] - along_x[:, 0])
-        gradient = np.stack(
-            [
-                slope_x[:, 0] + z[:, 0] * (slope_x[:, 1] - slope_x[:, 0]),
-                along_y[:, 0] + z[:, 0] * (along_y[:, 1] - along_y[:, 0]),
-                along_z,
-            ],
-            axis=1,
-        )
+        corners, (x, y, z) = self.cells(points)
+        here = values[corners].reshape(2, 2, 2, -1)
+        along_x = here[1] - here[0]
+        plane = here[0] + x * along_x
+        along_y = plane[1] - plane[0]
+        line = plane[0] + y * along_y
+        along_z = line[1] - line[0]
+        slope_x = along_x[0] + y * (along_x[1] - along_x[0])
+        gradient = np.empty((len(x), 3), np.float32)
+        gradient[:, 0] = slope_x[0] + z * (slope_x[1] - slope_x[0])
+        gradient[:, 1] = along_y[0] + z * (along_y[1] - along_y[0])
+        gradient[:, 2] = along_z
         gradient *= np.float32(1 / self.spacing)
-        return line[:, 0] + z[:, 0] * along_z, gradient
+        return line[0] + z * along_z, gradient
 
 
 def corner_weights(at: Singles) -> Singles:
-    """Trilinear weights of the eight corners, (k, 8), at places inside cells, (k, 3)."""
-    low = 1 - at
-    x = np.stack([low[:, 0], at[:, 0]], axis=1)
-    y = np.stack([low[:, 1], at[:, 1]], axis=1)
-    z = np.stack([low[:, 2], at[:, 2]], axis=1)
-    return (x[:, :, None, None] * y[:, None, :, None] * z[:, None, None, :]).reshape(-1, 8)
+    """Trilinear weights of the eight corners, (8, k), at places inside cells, (3, k)."""
+    sides = np.stack([1 - at, at])
+    x, y, z = sides[:, 0], sides[:, 1], sides[:, 2]
+    return (x[:, None, None] * y[None, :, None] * z[None, None]).reshape(8, -1)

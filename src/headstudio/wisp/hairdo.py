@@ -16,7 +16,7 @@ from .adornment import Adornment, adorn
 from .colour import strand_colours
 from .curves import LengthDistribution
 from .cutting import Blade, cut_strands
-from .deform import DeformReport, deform
+from .deform import Deformer, DeformReport
 from .follicles import Regions, scatter_strands, spread_wisps
 from .maps import density_map
 from .markov import Singles
@@ -54,12 +54,19 @@ class Hairdo:
 
 
 @dataclass(frozen=True, eq=False)
-class _Laid:
-    """Wisps as they lie. rest: the outlines before they were bent, outlines: after. lengths: of the masters [m], (W,)."""
+class _Spread:
+    """Wisps on the scalp. rest: their outlines before they are bent. lengths: of the masters [m], (W,)."""
 
     regions: Regions
     rest: Outlines
     lengths: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _Laid:
+    """Wisps as they lie. outlines: after they were bent."""
+
+    spread: _Spread
     outlines: Outlines
     report: DeformReport
 
@@ -89,6 +96,7 @@ class Stylist:
     def __init__(self) -> None:
         # The last result of every step, with what it was made from.
         self._made: dict[str, tuple[Any, Any]] = {}
+        self._deformer = Deformer()
 
     def style(
         self,
@@ -100,7 +108,11 @@ class Stylist:
         strands: int | None = None,
         announce: Callable[[str], None] = lambda step: None,
     ) -> Hairdo:
-        """As ``style_hair``."""
+        """Style hair on ``scalp``.
+
+        strands: make only the first so many of the strands; they are a thinned picture of the whole. ``announce`` is told
+        what is being done. Raises ParameterError for curves that cannot be used.
+        """
 
         def step(name: str, wanted: Any, make: Callable[[], MadeT]) -> MadeT:
             if name not in self._made or self._made[name][0] != wanted:
@@ -108,11 +120,16 @@ class Stylist:
             made: MadeT = self._made[name][1]
             return made
 
+        spread = step(
+            "wisps",
+            (scalp, [getattr(wisp, name) for name in _OUTLINES]),
+            lambda: _spread(scalp, wisp, announce),
+        )
         bare = replace(styling, cuts=(), accessories=())
         laid = step(
             "laid",
-            (scalp, surroundings, [getattr(wisp, name) for name in _OUTLINES], bare),
-            lambda: _lay(scalp, surroundings, wisp, bare, announce),
+            (spread, surroundings, bare),
+            lambda: self._lay(spread, scalp, surroundings, bare, announce),
         )
         count = wisp.strands if strands is None else min(strands, wisp.strands)
         grown = step(
@@ -122,51 +139,37 @@ class Stylist:
         )
         worn = step(
             "worn",
-            (laid.rest, styling.accessories, styling.operations),
-            lambda: adorn(styling, surroundings, float(laid.rest.counts.max(initial=0) * laid.rest.segment)),
+            (spread, surroundings, styling.accessories, styling.operations),
+            lambda: adorn(styling, surroundings, float(spread.rest.counts.max(initial=0) * spread.rest.segment)),
         )
         announce("colour")
         colours = step(
             "colours",
             (grown, colour),
-            lambda: strand_colours(colour, grown.owner, laid.regions.count, wisp.points).reshape(-1, 3),
+            lambda: strand_colours(colour, grown.owner, laid.spread.regions.count, wisp.points).reshape(-1, 3),
         )
         coloured = replace(grown.strands, colour=colours)
         return Hairdo(coloured, laid.outlines, grown.controls, laid.report, worn)
 
-
-def style_hair(
-    scalp: Scalp,
-    surroundings: Surroundings,
-    wisp: WispSettings,
-    colour: HairColourSettings,
-    styling: StylingSettings,
-    strands: int | None = None,
-    announce: Callable[[str], None] = lambda step: None,
-) -> Hairdo:
-    """Style hair on ``scalp``.
-
-    strands: make only the first so many of the strands; they are a thinned picture of the whole. ``announce`` is told
-    what is being done. Raises ParameterError for curves that cannot be used.
-    """
-    return Stylist().style(scalp, surroundings, wisp, colour, styling, strands, announce)
+    def _lay(
+        self,
+        spread: _Spread,
+        scalp: Scalp,
+        surroundings: Surroundings,
+        styling: StylingSettings,
+        announce: Callable[[str], None],
+    ) -> _Laid:
+        """Let the wisps lie."""
+        announce("flow")
+        return _Laid(spread, *self._deformer.deform(spread.rest, surroundings, styling, scalp))
 
 
-def _lay(
-    scalp: Scalp,
-    surroundings: Surroundings,
-    wisp: WispSettings,
-    styling: StylingSettings,
-    announce: Callable[[str], None],
-) -> _Laid:
-    """Spread the wisps and let them lie."""
+def _spread(scalp: Scalp, wisp: WispSettings, announce: Callable[[str], None]) -> _Spread:
+    """Spread the wisps over the scalp."""
     announce("wisps")
     parting = Parting.of(scalp, wisp)
     regions = spread_wisps(scalp, density_map(wisp), wisp.wisps, parting, wisp.seed)
-    rest, lengths = rest_outlines(scalp, regions, parting, wisp)
-    announce("flow")
-    outlines, report = deform(rest, surroundings, styling, scalp)
-    return _Laid(regions, rest, lengths, outlines, report)
+    return _Spread(regions, *rest_outlines(scalp, regions, parting, wisp))
 
 
 def _grow(
@@ -180,12 +183,14 @@ def _grow(
 ) -> _Grown:
     """Grow ``count`` strands around the masters of wisps that lie."""
     announce("strands")
-    details = synthesise_details(laid.rest, wisp)
+    details = synthesise_details(laid.spread.rest, wisp)
     outlines = laid.outlines
     controls = master_controls(outlines, details)
-    roots, owner = scatter_strands(laid.regions, count, wisp.seed)
-    masters = Masters(controls, details.per_segment, outlines.radii.astype(np.float32), laid.lengths / outlines.segment)
-    uv = scalp.locate(laid.rest.roots)
+    roots, owner = scatter_strands(laid.spread.regions, count, wisp.seed)
+    masters = Masters(
+        controls, details.per_segment, outlines.radii.astype(np.float32), laid.spread.lengths / outlines.segment
+    )
+    uv = scalp.locate(laid.spread.rest.roots)
     blades = [Blade.of(cut, surroundings.proportions, uv) for cut in styling.cuts]
     points = _member_strands(masters, roots, owner, wisp, surroundings, blades)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)

@@ -46,13 +46,13 @@ def turn(frames: Floats, start: Floats, end: Floats) -> Floats:
     turned = np.where(opposite[:, None], _half_turn(across, start), turned)
     # Made square again: errors of rounding would double at every joint.
     first = unit(turned - np.einsum("ij,ij->i", turned, end)[:, None] * end, otherwise=turned)
-    return np.stack([first, np.cross(end, first), end], axis=2)
+    return np.stack([first, cross(end, first), end], axis=2)
 
 
 def _half_turn(vectors: Floats, direction: Floats) -> Floats:
     """Vectors turned half around about an axis across ``direction``, (k, 3) each."""
     least = np.eye(3)[np.abs(direction).argmin(axis=1)]
-    axis = unit(np.cross(direction, least), otherwise=least)
+    axis = unit(cross(direction, least), otherwise=least)
     return 2.0 * np.einsum("ij,ij->i", axis, vectors)[:, None] * axis - vectors
 
 
@@ -64,7 +64,20 @@ def bend_toward(direction: Floats, goal: Floats, angle: float) -> Floats:
     return unit(np.cos(by) * direction + np.sin(by) * across, otherwise=direction)
 
 
+def cross(one: Floats, other: Floats) -> Floats:
+    """The vector product of vectors, (k, 3) each; for some hundreds of them numpy's own mostly looks for their axis."""
+    result = np.empty(one.shape)
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        result[:, k] = one[:, i] * other[:, j] - one[:, j] * other[:, i]
+    return result
+
+
 def unit(vectors: Floats, otherwise: Floats) -> Floats:
     """``vectors``, (k, 3), of length 1; where one vanishes, ``otherwise``."""
     length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))[:, None]
-    return np.where(length > 1e-9, vectors / np.maximum(length, 1e-9), otherwise)
+    scaled = vectors / np.maximum(length, 1e-9)
+    gone = length[:, 0] <= 1e-9
+    if gone.any():
+        scaled[gone] = otherwise[gone]
+    return scaled

@@ -62,7 +62,7 @@ def _drawn(grid: Grid, stroke: Stroke, proportions: Proportions) -> tuple[NDArra
     inside = distance[np.arange(len(box)), piece] <= stroke.radius
     directions = stroke.strength * unit(tangent, otherwise=np.zeros_like(tangent))
     # A stroke finer than the grid still bends the node next to it.
-    own = grid.cells(middle)[0][:, 0]
+    own = grid.cells(middle)[0][0]
     return np.concatenate([own, box[inside]]), np.concatenate([directions, directions[piece[inside]]])
 
 
