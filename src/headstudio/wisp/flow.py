@@ -142,20 +142,21 @@ class Flow:
         """
         segment = self.outlines.segment
         distance, outward = self._skin(start + segment * direction)
-        low = np.flatnonzero(distance < clearance)
         direction = direction.copy()
+        low, slack = np.arange(len(start)), 0.0
         for _ in range(_SLIDES):
+            deep = distance < clearance[low] - slack
+            low, distance, outward = low[deep], distance[deep], outward[deep]
             if len(low) == 0:
                 break
-            distance, outward = distance[low], outward[low]
             rise = np.einsum("ij,ij->i", direction[low], outward)
             wanted = np.clip(rise + (clearance[low] - distance) / segment, -1.0, 1.0)
             along = unit(direction[low] - rise[:, None] * outward, otherwise=outward)
             direction[low] = unit(
                 np.sqrt(1.0 - wanted**2)[:, None] * along + wanted[:, None] * outward, otherwise=outward
             )
-            distance, outward = self._skin(start + segment * direction)
-            low = low[distance[low] < clearance[low] - 1e-4]
+            distance, outward = self._skin(start[low] + segment * direction[low])
+            slack = 1e-4
         return direction
 
     def _skin(self, points: Floats) -> tuple[Floats, Floats]:
@@ -172,7 +173,7 @@ class Flow:
         for _ in range(_BENDS):
             if len(colliding) == 0:
                 break
-            away = unit(-slope.astype(np.float64), otherwise=bent)[colliding]
+            away = unit(-slope[colliding].astype(np.float64), otherwise=bent[colliding])
             turned = bend_toward(bent[colliding], away, _BEND)
             bent[colliding] = self._slide(start[colliding], turned, clearance[colliding])
             here, slope_here = self._density.at(start[colliding] + 0.5 * segment * bent[colliding])
