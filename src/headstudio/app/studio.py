@@ -12,9 +12,10 @@ from ..io.film import FilmError
 from ..io.hair import HairFileError
 from ..params import ParameterError
 from ..render.context import RenderError
-from ..scene.animation import Animation, groundwork, needs
+from ..scene.animation import Animation, groundwork
 from ..scene.builder import Builder
 from ..scene.document import Document
+from ..scene.drafts import drafted, next_to_build, same_hair
 from ..scene.project import ProjectError
 from ..scene.stage import Stage
 from ..wisp.selection import StylingError
@@ -31,7 +32,6 @@ from .work import Work
 FORESEEN = (HeadError, ParameterError, StylingError, ProjectError, RenderError, FilmError, HairFileError, OSError)
 
 SETTLE = 1.0  # seconds until furrows that were built in a hurry are built again
-DRAFT = 6000  # strands that are shown while something is dragged
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,32 +178,37 @@ class Studio:
 
     @property
     def building(self) -> bool:
-        """Whether hair is being built that the user waits for."""
-        return self.builds.wanted is not None and self.builds.wanted is not self._settling
+        """Whether hair is being built that the user waits for, or only its draft is there."""
+        if self.builds.wanted is not None:
+            return self.builds.wanted is not self._settling
+        return self.grown is not None and not self.work.in_gesture and _is_draft(self.grown.document, self.document)
 
     def cancel_build(self) -> None:
         """Keep the hair as it is, and take back the change that asked for another."""
         self.builds.cancel()
         self.messages.say("Cancelled: the hair stays as it was.")
-        if self.grown is not None and _same_hair(_drafted(self.document), self.grown.document):
-            # What is shown is the draft of a drag; without the drag there is nothing to be built in full.
+        if self.grown is not None and _is_draft(self.grown.document, self.document):
+            # A draft is there, and without what it shows there is nothing to be built in full: the last hair comes back.
             self.work.history.undo()
+            return
         self._return_to_grown()
 
     def _follow_document(self) -> None:
         """Ask for a build when the document has moved away from what was built.
 
         What takes long waits for the end of a drag. Strands and the depth of furrows follow it: one build after the other,
-        each to its end, since one that gave way to every next position of the mouse would never be seen, and with fewer
-        strands, the rest of which come when the mouse is let go.
+        each to its end, since one that gave way to every next position of the mouse would never be seen. Strands come as
+        a draft first, and the rest of them once it is on the screen and the mouse was let go.
         """
-        document = _drafted(self.document) if self.work.history.in_gesture else self.document
-        known = self.builds.wanted or (self.grown.document if self.grown else self._refused)
-        if self.work.in_gesture and (self.building or known is None or groundwork(document) != groundwork(known)):
+        shown = self.grown.document if self.grown else None
+        document = next_to_build(self.document, shown, dragging=self.work.history.in_gesture)
+        known = self.builds.wanted or shown or self._refused
+        waits = self.builds.wanted is not None and self.builds.wanted is not self._settling
+        if self.work.in_gesture and (waits or known is None or groundwork(document) != groundwork(known)):
             return
-        if known is not None and (_same_hair(document, known) or _same_hair(self.document, known)):
+        if known is not None and (same_hair(document, known) or same_hair(self.document, known)):
             return
-        if self.grown is not None and _same_hair(document, self.grown.document):
+        if self.grown is not None and same_hair(document, self.grown.document):
             self.builds.cancel()
         else:
             self.builds.request(document)
@@ -236,7 +241,7 @@ class Studio:
         if self.grown is not None:
             grown = self.grown.document
             self.work.hair_as, self.work.skin_as = grown.look.hair_as, grown.look.skin_as
-            if self.work.go_back(lambda document: _same_hair(_drafted(document), _drafted(grown))):
+            if self.work.go_back(lambda document: same_hair(drafted(document), drafted(grown))):
                 return
         self._stand_in()
 
@@ -245,10 +250,10 @@ class Studio:
         document = self.document
         head = replace(document.head, source="mannequin")
         stand_in = replace(document, head=head, scalp=replace(document.scalp, curves=()))
-        if _same_hair(stand_in, document):
+        if same_hair(stand_in, document):
             plain = Document()
             stand_in = replace(plain, head=head, motion=document.motion, look=document.look, camera=document.camera)
-        if _same_hair(stand_in, document):
+        if same_hair(stand_in, document):
             self._refused = document
             return
         self.work.change(stand_in, "Use the mannequin")
@@ -283,12 +288,5 @@ def _grow(builder: Builder, document: Document, *, settled: bool) -> Grown:
     return Grown(document, Animation(builder, document, document.look.strands_shown, settled=settled))
 
 
-def _drafted(document: Document) -> Document:
-    """The document with no more strands than a drag can wait for."""
-    look = document.look
-    return replace(document, look=replace(look, strands_shown=min(look.strands_shown, DRAFT)))
-
-
-def _same_hair(one: Document, other: Document) -> bool:
-    """Whether the same head of hair grows from both."""
-    return needs(one) == needs(other)
+def _is_draft(shown: Document, wanted: Document) -> bool:
+    return same_hair(shown, drafted(wanted)) and not same_hair(shown, wanted)

@@ -17,7 +17,7 @@ from ..bench.animation import (
     animation_cost,
     frames_to_draw,
 )
-from ..bench.changes import change_costs
+from ..bench.changes import ChangeCost, change_costs
 from ..bench.face import PAPER_CARVING_S, CarvingCost, FaceCost, carving_cost, face_cost
 from ..bench.face import PAPER_FPS as PAPER_FACE_FPS
 from ..bench.face import WARM_UP as FACE_WARM_UP
@@ -77,9 +77,7 @@ def bench(document: Document, subjects: tuple[str, ...], amounts: Amounts, out: 
             styles = [hairstyle_cost(document, count, builder, renderer, tick) for count in amounts.strands]
             changes = change_costs(document, builder, renderer)
             report["hairstyles"] = [asdict(cost) for cost in styles]
-            report["changes"] = {
-                name: {"build_ms": built, "draw_ms": drawn} for name, (built, drawn) in changes.items()
-            }
+            report["changes"] = {name: asdict(cost) | {"seen_ms": cost.seen_ms} for name, cost in changes.items()}
         if "face" in subjects:
             face = face_cost(document, frames, builder, renderer, tick)
             carvings = [carving_cost(document, texels, builder) for texels in amounts.texels]
@@ -128,13 +126,13 @@ def _hairstyle_table(costs: list[HairstyleCost]) -> Table:
     return table
 
 
-def _changes_table(changes: dict[str, tuple[float, float]]) -> Table:
+def _changes_table(changes: dict[str, ChangeCost]) -> Table:
     """A row for each kind of change, milliseconds."""
-    table = Table("from a change to its picture, ms", "build", "draw", "in all")
+    table = Table("from a change to its picture, ms", "build", "draw", "seen", "whole")
     for column in table.columns[1:]:
         column.justify = "right"
-    for name, (built, drawn) in changes.items():
-        table.add_row(name, f"{built:.0f}", f"{drawn:.0f}", f"{built + drawn:.0f}")
+    for name, cost in changes.items():
+        table.add_row(name, *(f"{ms:.0f}" for ms in (cost.build_ms, cost.draw_ms, cost.seen_ms, cost.whole_ms)))
     return table
 
 

@@ -41,6 +41,10 @@ FINE = StrandDetail(
 QUICK = StrandDetail(
     strand_pixels=0.6, bend_pixels=0.6, sun_strands=5_000, sky_strands=800, stride=2, pairs=5, spacing=0.006
 )
+ROUGH = StrandDetail(
+    strand_pixels=1.0, bend_pixels=2.0, sun_strands=2_000, sky_strands=400, stride=2, pairs=3, spacing=0.01
+)
+"""For a draft, which is looked at for the blink of an eye until there are more strands."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,12 @@ import numpy as np
 from ..head.head import Head
 from ..scene.settings import Look
 from ..scene.stage import Stage
+from ..wisp.strands import Strands
 from .fibre import Fibre, colour_absorption
 from .scene_block import linear, sky_and_ground
 from .skin_paint import coarse_faces
 from .sky_light import Sky, SkyLight, SkyPrograms
-from .strand_detail import FINE, QUICK, StrandDetail, StrandSurvey
+from .strand_detail import FINE, QUICK, ROUGH, StrandDetail, StrandSurvey
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .strand_picture import STEPS, Progress
 from .targets import LightTargets
@@ -47,7 +48,7 @@ class StrandLayer:
             return None
         known = self.hair
         survey = known.survey if known and known.survey.strands is stage.strands else StrandSurvey(stage.strands)
-        shown, detail = (stage.strands.count, FINE) if final else (look.strands_shown, QUICK)
+        shown, detail = (stage.strands.count, FINE) if final else (look.strands_shown, _quick(stage.strands, look))
         sparse = survey.bend < detail.bend_pixels * survey.pixel(view, stage.frame, height)
         if known is None or not known.suits(survey, shown, detail, sparse):
             known = StrandHair(self._context, self._programs, survey, shown, detail, sparse)
@@ -105,6 +106,12 @@ class StrandLayer:
             self._body_lit = (look.ambient, look.skin_colour)
         strands.take_soft_light(self._sky, sky, strands.lost(material))
         self._lit = wanted
+
+
+def _quick(strands: Strands, look: Look) -> StrandDetail:
+    """How carefully strands are drawn to work with: fewer than were asked for, and than there are, are only a draft."""
+    there = strands.count * strands.stands_for
+    return ROUGH if strands.count < 0.99 * min(look.strands_shown, there) else QUICK
 
 
 def strand_material(look: Look) -> StrandMaterial:
