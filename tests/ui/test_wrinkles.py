@@ -186,3 +186,17 @@ def test_colours_on_the_skin_are_explained(face, shows):
     view, scale = face.rect("Viewport"), face.rect("Scale")
     assert view.x < scale.x
     assert scale.y + scale.height < view.y + view.height
+
+
+def test_the_border_of_the_smooth_side_is_dragged_as_one_change(face):
+    assert not face.shown("Split line")
+    face.studio.set("look.split", 0.4, "Split")
+    face.frames(2)
+    view, (x, y) = face.rect("Viewport"), face.rect("Split line").centre
+    assert x == pytest.approx(view.x + 0.4 * view.width, abs=1)
+    camera = face.studio.document.camera
+    face.drag((x, y), (view.x + 0.7 * view.width, y))
+    assert face.studio.document.look.split == pytest.approx(0.7, abs=0.01)
+    assert face.studio.document.camera == camera
+    face.studio.undo()
+    assert face.studio.document.look.split == 0.4

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from ..scene.stage import Stage
-from . import scale_bar, shell, status, theme, toasts, view_bar
+from . import scale_bar, shell, split_line, status, theme, toasts, view_bar
 from .actions import Actions
 from .commands import run_pressed
 from .dialogs import Dialogs
@@ -172,6 +172,7 @@ class Application:
         shown = Rect(view.x, view.y, width, view.height)
         view_bar.draw(self.ui, self.viewport, shown, beside)
         if self.editor.skin_as == "living":
+            split_line.draw(self.ui, self.rows, shown)
             scale_bar.draw(self.ui, self.studio.document.look.skin_shows, shown)
         status.progress(self.ui, self.studio, view)
         toasts.draw(self.ui, self.studio.messages, view)

@@ -22,6 +22,7 @@ from .skin_tool import SkinTool
 
 GRAB = 9.0  # how near a handle has to be, in units of a plain screen
 GRAB_LINE = 6.0
+AWAY = 0.2  # how strong lines are while the mouse is elsewhere: the wrinkles themselves are to be seen
 STEP = 2.0  # the mouse moves so far for the next point of a stroke
 PROPOSED = theme.SERIES[1]
 SHORTEST = 3e-3  # a stroke shorter than this is a click [m]
@@ -125,8 +126,10 @@ class FurrowTool(SkinTool):
         for number in range(len(self.set.furrows)):
             line = lines.line(number)
             if number != chosen and line.stop > line.start:
-                colour = theme.packed(theme.INK, 0.95 if number == pointed else 0.6)
-                draw_line(drawing, points[line], seen[line], colour, 1.5 * scale, edge=0.8 * scale)
+                strength = 0.95 if number == pointed else 0.6 if touch is not None else AWAY
+                colour = theme.packed(theme.INK, strength)
+                edge = 0.8 * scale if touch is not None else 0.0
+                draw_line(drawing, points[line], seen[line], colour, 1.5 * scale, edge=edge)
         if chosen is not None:
             line = lines.line(chosen)
             if line.stop > line.start:
