@@ -28,10 +28,10 @@ from .smooth_surface import PosedSurface, SmoothSurface, cross, unit
 
 # Edge of a patch, and how far patches may move before those that face each other are looked for again [m].
 _PATCH = 0.006
-_SLACK = 0.004
-# Bulges lower than this meet nothing [m]. Those that meet stop so far from the middle [m], and so many times the height of
+_SLACK = 0.007
+# Bulges lower than this meet nothing [m], and those that are half as high may soon be higher. Those that meet stop so far from the middle [m], and so many times the height of
 # the smooth skin over its triangles, which is how well places are known.
-_LOW = 5e-5
+_LOW, _SOON = 5e-5, 2.5e-5
 _CLEAR, _UNSURE = 5e-6, 4.0
 # Skin that bends by less than 25 degrees does not face itself, as a cosine: bulges are too low for wider folds. Patches
 # do from 60 degrees on; what bends less lies around a crease.
@@ -56,7 +56,7 @@ class Folds:
         self._rows: Ints = raised[order]
         self._bulging, self._starts, self._count = np.unique(face[order], return_index=True, return_counts=True)
         self._creases = _Creases(skin, self._bulging)
-        self._patches = _Patches(skin, self._bulging)
+        self._patches = _Patches(skin)
 
     def clamped(self, height: Floats, posed: Floats, surface: PosedSurface) -> Floats:
         """Heights [m], (k,), of the surface's vertices, none beyond the middle of a ball between it and other skin.
@@ -162,25 +162,30 @@ class _Creases:
         chosen = np.flatnonzero((top > _LOW) & (0.5 * self._length < _SHARP * np.pi * top))
         if not len(chosen):
             return close
-        corners = posed[faces[self._pairs[chosen]]]
-        normal = [
-            unit(cross(each[:, 1] - each[:, 0], each[:, 2] - each[:, 0])) for each in (corners[:, 0], corners[:, 1])
-        ]
-        middle = corners.mean(axis=2)
-        step, apart = middle[:, 1] - middle[:, 0], normal[0] - normal[1]
-        cosine = np.clip(np.einsum("ij,ij->i", *normal), -1.0, 1.0)
+        # Each triangle once, though it has three edges.
+        used = np.zeros(len(faces), dtype=bool)
+        used[self._pairs[chosen]] = True
+        place = np.cumsum(used) - 1
+        corners = posed[faces[used]]
+        normal = unit(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        middle = corners.mean(axis=1)
+        one, other = place[self._pairs[chosen]].T
+        step, n, m = middle[other] - middle[one], normal[one], normal[other]
+        cosine = np.clip(np.einsum("ij,ij->i", n, m), -1.0, 1.0)
         length = np.sqrt(np.einsum("ij,ij->i", step, step))
-        hit = (np.einsum("ij,ij->i", step, apart) > 0) & (length < _SHARP * top[chosen] * np.arccos(cosine))
+        hit = (np.einsum("ij,ij->i", step, n - m) > 0) & (length < _SHARP * top[chosen] * np.arccos(cosine))
+        if not hit.any():
+            return close
         # And all around their corners.
         at = np.zeros(len(posed), dtype=bool)
         at[faces[self._pairs[chosen[hit]]]] = True
-        return np.asarray(at[faces].any(axis=1) if hit.any() else close)
+        return _touching(at, faces)
 
 
 class _Patches:
     """The skin in pieces of some millimetres, each with a place and a direction."""
 
-    def __init__(self, skin: TriangleMesh, bulging: Ints) -> None:
+    def __init__(self, skin: TriangleMesh) -> None:
         cells = np.floor(skin.vertices / _PATCH).astype(np.int64)
         # Two sides of a thin part of the body are not one patch.
         facing = np.argmax(np.abs(skin.vertex_normals), axis=1)
@@ -191,60 +196,83 @@ class _Patches:
         columns = np.arange(len(patch))
         self._mean = sparse.csr_array((1.0 / size[patch], (patch, columns)), shape=(len(size), len(columns)))
         self._of_face: Ints = patch[skin.faces]
-        self._bulging_faces = bulging
-        self._bulging: Ints = np.unique(self._of_face[bulging])
         self._count = len(size)
-        self._found: tuple[Floats, float, tuple[sparse.csr_array, Ints, Ints, Ints]] | None = None
+        self._found: _Pairs | None = None
 
     def facing(self, tops: Floats, posed: Floats, normals: Floats) -> NDArray[np.bool_]:
         """Which triangles belong to a patch with bulges that faces another closely, or to that other, (m,).
 
         tops: how high the bulges of every triangle are [m], (m,). posed, normals: of the skin, (n, 3).
         """
-        mean, first, second, kept = self._near(posed, normals, float(tops.max()))
-        both = mean @ np.concatenate([posed, normals], axis=1)
-        middle, normal = both[:, :3], unit(both[:, 3:])
-        top = np.zeros(self._count)
+        close = np.zeros(len(tops), dtype=bool)
+        up = np.flatnonzero(tops > _SOON)
+        height = np.zeros(self._count)
         for k in range(3):
-            np.maximum.at(top, self._of_face[self._bulging_faces, k], tops[self._bulging_faces])
-        top = top[kept]
-        up = top[first] > _LOW
-        first, second = first[up], second[up]
-        step, n, m = middle[first] - middle[second], normal[first], normal[second]
+            np.maximum.at(height, self._of_face[up, k], tops[up])
+        pairs = self._near(height, posed, normals)
+        middle, normal, top = pairs.mean @ posed, unit(pairs.mean @ normals), height[pairs.patch]
+        first, second = (ends[top[pairs.first] > _LOW] for ends in (pairs.first, pairs.second))
+        step, n, m, top = middle[first] - middle[second], normal[first], normal[second], top[first]
         turn = 1.0 - np.einsum("ij,ij->i", n, m)
         gap = np.einsum("ij,ij->i", step, m)
         # A sixth of a patch is how far skin of a patch may be from the plane of its middle where it bends.
         slack = 0.15 * _PATCH
-        hit = (turn > 1.0 - _OPPOSED) & (gap > -slack) & (gap < turn * top[first] + 2.0 * slack)
+        hit = (turn > 1.0 - _OPPOSED) & (gap > -slack) & (gap < turn * top + 2.0 * slack)
         hit &= np.einsum("ij,ij->i", step, n) < slack
-        hit &= np.einsum("ij,ij->i", step, step) < (1.7 * _PATCH + 2.0 * top[first]) ** 2
-        close = np.zeros(self._count, dtype=bool)
-        close[kept[first[hit]]] = close[kept[second[hit]]] = True
-        return np.asarray(close[self._of_face].any(axis=1))
+        hit &= np.einsum("ij,ij->i", step, step) < (1.7 * _PATCH + 2.0 * top) ** 2
+        if hit.any():
+            of_patch = np.zeros(self._count, dtype=bool)
+            of_patch[pairs.patch[first[hit]]] = of_patch[pairs.patch[second[hit]]] = True
+            close = _touching(of_patch, self._of_face)
+        return close
 
-    def _near(self, posed: Floats, normals: Floats, top: float) -> tuple[sparse.csr_array, Ints, Ints, Ints]:
-        """Patches that bulge and others that look towards them, pair by pair; found again when the skin has moved.
+    def _near(self, height: Floats, posed: Floats, normals: Floats) -> _Pairs:
+        """Patches that bulge and others that look towards them; found again when the skin has moved or more of it bulges.
 
-        Returns the matrix that takes the means over the patches of all pairs, (k, n), which of them each pair is, (pairs,)
-        twice, and which patches these are, (k,).
+        height: of the bulges of every patch [m], (patches,).
         """
-        if self._found is not None:
-            before, room, pairs = self._found
-            moved = posed - before
-            if top <= room and np.einsum("ij,ij->i", moved, moved).max() < (0.5 * _SLACK) ** 2:
-                return pairs
-        both = self._mean @ np.concatenate([posed, normals], axis=1)
-        middle, normal = both[:, :3], unit(both[:, 3:])
-        room = 1.5 * top
+        if self._found is not None and self._found.hold(height, posed):
+            return self._found
+        raised, room = np.flatnonzero(height), 1.5 * float(height.max())
         # Two bulges, and from the middle of either patch to its corner.
         reach = 1.7 * _PATCH + 2.0 * room + _SLACK
+        middle, normal = self._mean @ posed, unit(self._mean @ normals)
         # Directions count as half of it: face to face they are nothing apart, side by side as much as it takes.
-        mine = np.concatenate([middle, 0.5 * reach * normal], axis=1)[self._bulging]
+        mine = np.concatenate([middle, 0.5 * reach * normal], axis=1)[raised]
         theirs = np.concatenate([middle, -0.5 * reach * normal], axis=1)
         found = cKDTree(mine).sparse_distance_matrix(cKDTree(theirs), reach, output_type="ndarray")
-        both_ends = np.stack([self._bulging[found["i"]], found["j"]])
-        kept, local = np.unique(both_ends, return_inverse=True)
+        ends = np.stack([raised[found["i"]], found["j"]])
+        kept, local = np.unique(ends, return_inverse=True)
         first, second = local.reshape(2, -1)
-        pairs = sparse.csr_array(self._mean[kept]), first, second, kept
-        self._found = posed, room, pairs
-        return pairs
+        mean = sparse.csr_array(self._mean[kept])
+        self._found = _Pairs(kept, first, second, mean, np.where(height > 0, room, _LOW), posed)
+        return self._found
+
+
+def _touching(chosen: NDArray[np.bool_], faces: Ints) -> NDArray[np.bool_]:
+    """Which triangles, of (m, 3), have a chosen one among their three corners or patches, (m,)."""
+    return np.asarray(chosen[faces[:, 0]] | chosen[faces[:, 1]] | chosen[faces[:, 2]])
+
+
+@dataclass(frozen=True, eq=False)
+class _Pairs:
+    """Patches that bulge, each with one that looks towards it.
+
+    patch: which patches these are, (k,); first, second: the two of a pair among them, (pairs,). mean: takes values of the
+    skin's vertices to those of the patches, (k, n). room: how high the bulges of all patches may grow before there are
+    others [m], (patches,). posed: where the skin was when these were found [m], (n, 3).
+    """
+
+    patch: Ints
+    first: Ints
+    second: Ints
+    mean: sparse.csr_array
+    room: Floats
+    posed: Floats
+
+    def hold(self, height: Floats, posed: Floats) -> bool:
+        """Whether there can be no others yet, with bulges so high [m], (patches,), and the skin there, (n, 3)."""
+        if (height > self.room).any():
+            return False
+        moved = posed - self.posed
+        return bool(np.einsum("ij,ij->i", moved, moved).max() < (0.5 * _SLACK) ** 2)
