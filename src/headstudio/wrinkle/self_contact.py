@@ -29,8 +29,8 @@ from .smooth_surface import PosedSurface, SmoothSurface, cross, unit
 # Edge of a patch, and how far patches may move before those that face each other are looked for again [m].
 _PATCH = 0.006
 _SLACK = 0.007
-# Bulges lower than this meet nothing [m], and those that are half as high may soon be higher. Those that meet stop so far from the middle [m], and so many times the height of
-# the smooth skin over its triangles, which is how well places are known.
+# Bulges lower than this meet nothing [m]; those that are half as high may soon be higher. Those that meet stop so far from
+# the middle [m], and so many times the height of the smooth skin over its triangles, which is how well places are known.
 _LOW, _SOON = 5e-5, 2.5e-5
 _CLEAR, _UNSURE = 5e-6, 4.0
 # Skin that bends by less than 25 degrees does not face itself, as a cosine: bulges are too low for wider folds. Patches
