@@ -46,6 +46,18 @@ def test_no_joint_is_below_the_skin(rest, force):
     assert SkinDepth(head).deepest(laid.joints[:, 1:].reshape(-1, 3), HeadFrame()) < 0.001
 
 
+def test_hair_combed_against_its_growth_leaves_the_skin_that_way(rest):
+    """Its first segment turns about the skin's normal, and does not rise the more."""
+    _, _, surroundings = body()
+    front = np.flatnonzero(rest.directions[:, 0, 2] > 0.6)
+    assert len(front) > 10
+    outward = surroundings.gradient(rest.roots[front]).astype(float)
+    laid = styled(rest, bending_stiffness=50.0, gravity=0.0, back=3.0)[0].directions[front, 0]
+    assert np.mean(laid[:, 2] < 0) > 0.8
+    rise = [np.einsum("ij,ij->i", each, outward) for each in (rest.directions[front, 0], laid)]
+    np.testing.assert_allclose(rise[1], rise[0], atol=0.1)
+
+
 def test_segments_keep_their_length_and_frames_stay_square(rest):
     laid, _ = styled(rest, blown=1.0)
     steps = np.linalg.norm(np.diff(laid.joints, axis=1), axis=2)

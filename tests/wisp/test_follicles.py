@@ -112,6 +112,16 @@ def test_hair_leans_away_from_the_parting_and_by_the_protrusion_map(scalp):
     assert (np.sign(side[near]) == np.sign(lean[near])).mean() > 0.97
 
 
+def test_hair_at_the_end_of_a_parting_falls_to_its_sides_and_not_over_the_face(scalp):
+    settings = WispSettings(parting="centre", protrusion_map="flat")
+    regions = spread_wisps(scalp, EVEN, 3000, None, 1)
+    frames = rest_outlines(scalp, regions, Parting.of(scalp, settings), settings)[0].frames[:, 0]
+    end = scalp.points(np.array([[0.5, 0.0]]))
+    near = np.linalg.norm(regions.roots - end, axis=1) < 0.012
+    assert near.sum() > 10
+    assert np.median(np.abs(frames[near, 0, 2])) > 0.9
+
+
 def test_standing_hair_stands_up(scalp):
     settings = WispSettings(protrusion_map="standing", wisps=100)
     regions = spread_wisps(scalp, EVEN, 100, None, 1)

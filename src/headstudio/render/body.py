@@ -6,16 +6,16 @@ import moderngl
 import numpy as np
 
 from ..head.head import Head
-from ..lcp.model import HairModel
 from ..scene.settings import Look
 from ..scene.skin_settings import SkinSettings
 from .body_parts import BodyParts, hidden_of_head
 from .buffers import bytes_of, floats_of, indices_of
 from .context import load_program, set_uniforms
+from .hair_ground import Growth, ground_colour, ground_cover, same_ground
 from .openings import Openings
 from .scene_block import linear
 from .screen import ScreenPasses
-from .skin_paint import coarse_faces, paint, scalp_cover
+from .skin_paint import coarse_faces, paint
 from .targets import PictureTargets
 from .view import View
 
@@ -41,13 +41,13 @@ class Body:
         self.head = head
         self._context = context
         self._programs = programs
-        self._roots_of: HairModel | None = None
+        self._growth: Growth = None
         self._openings = Openings(head.skin)
         skin = head.skin
         hidden_skin, hidden_parts = hidden_of_head(context, head)
         surface = np.concatenate([skin.vertices, skin.vertex_normals, head.head_weight[:, None]], axis=1)
         vertices = context.buffer(floats_of(surface))
-        self._cover = context.buffer(bytes_of(scalp_cover(head, None)))
+        self._cover = context.buffer(bytes_of(ground_cover(head, None)))
         self._skin = context.vertex_array(
             programs.skin,
             [
@@ -69,11 +69,11 @@ class Body:
         )
         self._parts = BodyParts(context, programs.part, head, hidden_parts)
 
-    def set_roots(self, hair: HairModel | None) -> None:
-        """Cover the skin that ``hair`` grows from; sent again only for another model."""
-        if hair is not self._roots_of:
-            self._cover.write(bytes_of(scalp_cover(self.head, hair)))
-            self._roots_of = hair
+    def set_roots(self, growth: Growth) -> None:
+        """Cover the skin that ``growth`` grows from; sent again only for other roots."""
+        if not same_ground(growth, self._growth):
+            self._cover.write(bytes_of(ground_cover(self.head, growth)))
+        self._growth = growth
 
     def draw_depth(self) -> None:
         """The body into the shadow map."""
@@ -114,7 +114,7 @@ class Body:
             upward=tuple(view.up / view.focal),
             sideward=tuple(view.right * width / height / view.focal),
             skin_colour=tuple(linear(look.skin_colour)),
-            hair_colour=tuple(linear(look.hair_colour)),
+            hair_colour=tuple(ground_colour(self._growth, look)),
         )
         self._context.depth_func = "<"
 

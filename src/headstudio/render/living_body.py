@@ -6,12 +6,11 @@ import moderngl
 import numpy as np
 
 from ..head.mesh import Floats
-from ..lcp.model import HairModel
 from ..scene.settings import Look
 from ..wrinkle.living_skin import LivingSkin, SkinSurface
 from .body_parts import BodyParts, hidden_of_head
+from .hair_ground import Growth, ground_cover, same_ground
 from .skin_body import SkinBody, SkinPrograms
-from .skin_paint import scalp_cover
 from .skin_shape import MOST_HIDDEN, pose_of, shape_of, smooth_pose_of
 
 
@@ -38,15 +37,14 @@ class LivingBody(SkinBody):
         self._parts: BodyParts = (
             known_head._parts if known_head else BodyParts(context, programs.part, self.head, parts_hidden)
         )
-        self._roots_of: HairModel | None = None
         self._shown: tuple[LivingSkin, str] | None = None
         self._shown_smooth: tuple[LivingSkin, str] | None = None
 
-    def set_roots(self, hair: HairModel | None) -> None:
-        """Cover the skin that ``hair`` grows from; sent again only for another model."""
-        if hair is not self._roots_of:
-            self.cover(self.surface.spread(scalp_cover(self.head, hair)))
-            self._roots_of = hair
+    def set_roots(self, growth: Growth) -> None:
+        """Cover the skin that ``growth`` grows from; sent again only for other roots."""
+        if not same_ground(growth, self.growth):
+            self.cover(self.surface.spread(ground_cover(self.head, growth)))
+        self.growth = growth
 
     def pose(self, skin: LivingSkin, look: Look) -> None:
         """Take the pose of ``skin``, of this body's surface; sent again only for another object or other figures shown."""

@@ -200,7 +200,7 @@ class Renderer:
     def _pull(self, stage: Stage, look: Look) -> tuple[Body | LivingBody, Hair | None]:
         body = self._pull_body(stage, look)
         hair = stage.hair if look.show_hair else None
-        body.set_roots(hair.model if hair else None)
+        body.set_roots((hair.model if hair else stage.strands) if look.show_hair else None)
         if hair is None or hair.model.count == 0:
             return body, None
         if self._hair is None or not self._hair.suits(stage.head, hair.model, look.ribbons):

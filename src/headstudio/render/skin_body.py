@@ -16,9 +16,9 @@ from .body import BodyPrograms, draw_covering
 from .buffers import bytes_of, floats_of, indices_of
 from .context import load_program, set_uniforms
 from .fine_relief import FineRelief
+from .hair_ground import Growth, ground_colour
 from .openings import Openings
 from .scattering import STEEPEST, scattering_table, scattering_taps
-from .scene_block import linear
 from .screen import ScreenPasses
 from .skin_colour import HAEMOGLOBIN, skin_colour
 from .skin_shape import BLOOD_MEAN, SkinPose, SkinShape, order_of_use
@@ -51,7 +51,7 @@ class SkinPrograms:
 
 
 class SkinBody:
-    """A skin that is posed anew whenever it moves; made once per shape."""
+    """A skin that is posed anew whenever it moves; made once per shape. growth: the hair that it carries."""
 
     def __init__(
         self,
@@ -65,6 +65,7 @@ class SkinBody:
         wrinkles, whose textures are large."""
         self.context = context
         self.programs = programs
+        self.growth: Growth = None
         self._openings = Openings(whole)
         self._fine = shape.fine
         same_fine = known is not None and known._fine is shape.fine
@@ -164,7 +165,7 @@ class SkinBody:
                 pores=9, heights=10, scattered=11, scale=12, size=(float(width), float(height)),
                 forward=tuple(view.forward), upward=tuple(view.up / view.focal),
                 sideward=tuple(view.right * width / height / view.focal),
-                skin_colour=tuple(colour), hair_colour=tuple(linear(look.hair_colour)), haemoglobin=tuple(HAEMOGLOBIN),
+                skin_colour=tuple(colour), hair_colour=tuple(ground_colour(self.growth, look)), haemoglobin=tuple(HAEMOGLOBIN),
                 flushed=skin.flush, blood_mean=BLOOD_MEAN, blood_flow=skin.blood_flow, creases=skin.creases, gloss=skin.gloss,
                 roughness=skin.roughness, scattering=skin.scattering, steepest=STEEPEST, model=MODELS.index(skin.model),
                 tint=tuple(colour / lafortune.MEASURED_ALBEDO), measured_diffuse=tuple(lafortune.DIFFUSE),

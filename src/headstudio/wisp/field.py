@@ -116,7 +116,7 @@ def _off_face(places: Floats, styling: StylingSettings) -> Floats:
     # Hair goes to the side of the parting that it comes from: across the forehead, not against itself.
     side = np.tanh(_beside_parting(places, styling) / 0.1)[:, None]
     before_face = (1.0 - _fade(places[:, 2], 0.1, 0.7)) * _fade(np.abs(places[:, 0]), 0.95, 1.3)
-    below_hairline = _fade(places[:, 1], 0.6, 1.1)
+    below_hairline = _fade(places[:, 1], 0.8, 1.2)
     return before_face * below_hairline * (side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))
 
 
@@ -129,6 +129,7 @@ def _inward(places: Floats, styling: StylingSettings) -> Floats:
 # Where the ridge of the shoulders runs, in half depths of the head behind its middle; within a part of this hair does not
 # know yet which way to go.
 _RIDGE, _RIDGE_BREADTH = -0.5, 0.12
+_BESIDE_NECK, _TOGETHER = (0.65, 1.0), 0.45  # half breadths of the head, and how strongly hair keeps together there
 _ON_SHOULDERS = (0.005, 0.045)  # hair nearer to the skin than this lies on it, and hair farther off hangs free [m]
 
 
@@ -141,7 +142,10 @@ def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Fl
     upward = np.clip(outward[:, 1], 0.0, 1.0)
     side = np.tanh((places[:, 2] - _RIDGE) / _RIDGE_BREADTH)
     # What gravity leaves along the slope from side to side, and a push across the ridge.
-    return lying * upward[:, None] * np.stack([-outward[:, 0], 0 * side, side], axis=1)
+    across = lying * upward[:, None] * np.stack([-outward[:, 0], 0 * side, side], axis=1)
+    # Down the back hair keeps together: what lies beside the neck's breadth is drawn to the rest.
+    astray = (1.0 - _fade(np.abs(places[:, 0]), *_BESIDE_NECK)) * _fade(places[:, 2], _RIDGE - 0.2, _RIDGE)
+    return across - _TOGETHER * lying * astray * np.stack([np.sign(places[:, 0]), 0 * side, 0 * side], axis=1)
 
 
 PRESETS: dict[str, Callable[[Floats, StylingSettings], Floats]] = {

@@ -18,6 +18,10 @@ _BEND = math.radians(12)  # Delta theta of Algorithm 1
 _BENDS = 4  # so many before the least dense direction is taken
 _SLIDES = 2  # corrections of a segment that would run into the head
 
+# How firmly a root holds on to the way it grows along the skin, against a force of 1 along it that opposes its growth; a
+# force across it counts for a part only, and one that goes its way not at all.
+_HOLD, _ACROSS = 0.4, 0.25
+
 # How fast a wisp that was pressed together grows wide again, on both sides [m per m].
 _WIDEN = 0.3
 
@@ -93,6 +97,8 @@ class Flow:
         start = self.ends[wisps]
         rest = self.outlines.frames[wisps, joint]
         carried = self._turned[wisps] @ rest
+        rooted = np.flatnonzero(joint == 0)
+        carried[rooted] = self._combed(start[rooted], carried[rooted], force[rooted])
         straight = carried[:, :, 2]
         clearance = self._clearance(wisps, joint)
         direction = most_aligned(force, straight, self.stiffness)
@@ -128,6 +134,23 @@ class Flow:
         tipward = np.minimum.accumulate(self._widest - rise, axis=1) + rise
         rootward = np.minimum.accumulate((self._widest + rise)[:, ::-1], axis=1)[:, ::-1] - rise
         return np.minimum(tipward, rootward)
+
+    def _combed(self, roots: Floats, frames: Floats, force: Floats) -> Floats:
+        """``frames`` of first segments, (k, 3, 3), turned about the skin's normal toward ``force``, (k, 3).
+
+        Hair that is combed against its growth does not first go its own way and then back in a loop.
+        """
+        _, outward = self._skin(roots)
+        direction = frames[:, :, 2]
+        rise = np.einsum("ij,ij->i", direction, outward)[:, None] * outward
+        along = direction - rise
+        pull = force - np.einsum("ij,ij->i", force, outward)[:, None] * outward
+        nowhere = np.zeros_like(along)
+        grows = unit(along, otherwise=nowhere)
+        opposed = np.clip(_ACROSS - np.einsum("ij,ij->i", unit(pull, otherwise=nowhere), grows), 0.0, 1.0)
+        way = unit(_HOLD * grows + opposed[:, None] * pull, otherwise=along)
+        combed = unit(rise + np.linalg.norm(along, axis=1, keepdims=True) * way, otherwise=direction)
+        return turn(frames, direction, combed)
 
     def _clearance(self, wisps: Ints, joint: Ints) -> Floats:
         """How far off the skin the end of the next segment stays [m], (k,)."""

@@ -18,6 +18,7 @@ from .curves import LengthDistribution
 from .cutting import Blade, cut_strands
 from .deform import Deformer, DeformReport
 from .follicles import Regions, scatter_strands, spread_wisps
+from .hairline import fineness
 from .maps import density_map
 from .markov import Singles
 from .masters import master_controls, synthesise_details
@@ -84,7 +85,7 @@ class _Grown:
 _CURLS = (
     "prototype", "prototype_curve", "curl_size", "curl_length", "straight_roots", "temperature", "window", "alignment",
 )  # fmt: skip
-_STRANDS = ("points", "length_distribution", "length_curve", "fuzziness", "shaft_root", "shaft_tip")
+_STRANDS = ("points", "length_distribution", "length_curve", "fuzziness", "shaft_root", "shaft_tip", "hairline")
 _OUTLINES = tuple(field.name for field in fields(WispSettings) if field.name not in (*_CURLS, *_STRANDS))
 
 
@@ -194,7 +195,7 @@ def _grow(
     blades = [Blade.of(cut, surroundings.proportions, uv) for cut in styling.cuts]
     points = _member_strands(masters, roots, owner, wisp, surroundings, blades)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
-    radius = np.broadcast_to(shaft, points.shape[:2])
+    radius = fineness(scalp, roots, wisp.hairline, wisp.seed)[:, None] * shaft
     made = Strands.of_equal_count(points, radius, None, owner.astype(np.int32))
     return _Grown(replace(made, stands_for=wisp.strands / count), owner, controls)
 

@@ -24,11 +24,14 @@ _LINES: Mapping[str, CurvePoints] = {
 _SPACING = 0.001  # between the points that stand for the line [m]
 # Skin this near to the line is told apart by its side [m].
 _APART = 0.015
+# A line that ends this near to the border of the square goes on so far beyond it [m].
+_BORDER, _BEYOND = 0.03, 0.02
 
 
 @dataclass(frozen=True, eq=False)
 class Parting:
-    """A line on the skin as points [m], (k, 3), a millimetre apart, with unit vectors to its left on the skin, (k, 3).
+    """A line on the skin as points [m], (k, 3), a millimetre apart, with unit vectors to its left on the skin, (k, 3). Where
+    it ends at the border of the scalp it goes straight on for a little.
 
     reach: how far from the line hair leans away from it [m].
     """
@@ -50,7 +53,7 @@ class Parting:
         if line.ndim != 2 or line.shape[1] != 2 or len(line) < 2 or not np.isfinite(line).all():
             raise ParameterError("a parting is a line of two or more points (u, v)")
         uv = _evenly(line, 400)
-        points = _evenly(scalp.points(uv), None)
+        points = _beyond_border(_evenly(scalp.points(uv), None), uv)
         along = np.gradient(points, axis=0)
         leftward = np.cross(scalp.normals(scalp.locate(points)), along)
         length = np.linalg.norm(leftward, axis=1, keepdims=True)
@@ -84,6 +87,24 @@ class Parting:
     @property
     def _tree(self) -> cKDTree:
         return cKDTree(self.points)
+
+
+def _beyond_border(points: Floats, uv: Floats) -> Floats:
+    """A line [m], (k, 3), that goes straight on where it ends at the border of the scalp: hair at its end falls to either
+    side of it, too, and not over the face. uv: of its ends and what lies between, (n, 2).
+    """
+    onward = np.arange(1, round(_BEYOND / _SPACING) + 1)[:, None]
+    steps = min(len(points) - 1, 5)
+    ends = [points]
+    if _at_border(uv[0]):
+        ends.insert(0, points[0] + onward[::-1] * (points[0] - points[steps]) / steps)
+    if _at_border(uv[-1]):
+        ends.append(points[-1] + onward * (points[-1] - points[-1 - steps]) / steps)
+    return np.concatenate(ends)
+
+
+def _at_border(place: Floats) -> bool:
+    return bool(min(*place, *(1.0 - place)) < _BORDER)
 
 
 def unit(vectors: Floats) -> Floats:

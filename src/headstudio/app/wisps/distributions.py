@@ -11,7 +11,7 @@ from ..parameter_rows import ParameterRows
 from ..ui import Ui
 from .named import Named
 
-_VARIATION = ("fuzziness", "temperature", "window", "alignment", "shaft_root", "shaft_tip")
+_VARIATION = ("fuzziness", "temperature", "window", "alignment", "shaft_root", "shaft_tip", "hairline")
 
 
 class WispStep:
