@@ -98,7 +98,8 @@ class Flow:
         rest = self.outlines.frames[wisps, joint]
         carried = self._turned[wisps] @ rest
         rooted = np.flatnonzero(joint == 0)
-        carried[rooted] = self._combed(start[rooted], carried[rooted], force[rooted])
+        if len(rooted):
+            carried[rooted] = self._combed(start[rooted], carried[rooted], force[rooted])
         straight = carried[:, :, 2]
         clearance = self._clearance(wisps, joint)
         direction = most_aligned(force, straight, self.stiffness)
