@@ -19,13 +19,16 @@ from headstudio.params import assign
 from headstudio.scene.animation import Animation
 from headstudio.scene.builder import Builder
 from headstudio.scene.document import Document
+from headstudio.scene.stage import Stage
 from headstudio.scene.styles import load_style, style_names
 
 SIZE = (160, 200)
 STRANDS = 20_000
 VIEWS = ("three-quarter", "left", "back")
 COLOURS = 256
-MEN = ("mens-short", "beard")  # shown on a man where the head knows the difference
+NEAREST, MARGIN = 0.93, 1.06  # the camera's distance [m], unless hair needs more
+LOOKED_AT, CHIN = -0.015, -0.05  # heights [m]
+MEN = ("mens-short", "beard", "figure-8a")  # shown on a man where the head knows the difference
 
 SHEETS = {
     "long": ("straight-long", "fringe", "bob", "side-part", "wavy-lob", "hairband"),
@@ -56,9 +59,20 @@ def main(head: str, folder: Path, sheets: list[str]) -> None:
 def _views(name: str, head: str, builder: Builder, photographer: Photographer) -> np.ndarray:
     shown = {"head.source": head, "head.masculine": float(name in MEN), "look.hair_as": "strands"}
     document = load_style(name).on(assign(Document(), shown))
-    document = replace(document, camera=replace(document.camera, distance=0.93, target_y=-0.015))
     stage = Animation(builder, document, STRANDS).stage()
+    document = replace(
+        document, camera=replace(document.camera, distance=_distance(stage, document), target_y=LOOKED_AT)
+    )
     return np.concatenate([photographer.still(stage, seen_and_lit(document, view), SIZE) for view in VIEWS], axis=1)
+
+
+def _distance(stage: Stage, document: Document) -> float:
+    """How far off the camera has all hair above the chin in view, up and to the sides [m]."""
+    points = stage.strands.points[stage.strands.points[:, 1] > CHIN]
+    slope = np.tan(0.5 * document.camera.field_of_view)
+    up = np.percentile(points[:, 1], 99.9) - LOOKED_AT
+    aside = np.percentile(np.abs(points[:, [0, 2]]).max(axis=1), 99.9)
+    return max(NEAREST, MARGIN * max(up, aside * SIZE[1] / SIZE[0]) / slope)
 
 
 if __name__ == "__main__":
