@@ -93,3 +93,14 @@ def test_hair_on_the_shoulders_is_led_off_them_before_and_behind():
     assert np.all(np.sign((pushed - plain)[:, 2]) == [1, -1, 1, -1])
     # Far from the body nothing is changed.
     assert field_at([[0.0, -1.9, 3.0]], off_shoulders=1.0) == pytest.approx(field_at([[0.0, -1.9, 3.0]]))
+
+
+def test_hair_on_the_back_keeps_together():
+    _, _, surroundings = body()
+    behind = surroundings.proportions.place(np.array([[side, -2.2, -2.0] for side in (-1.2, 1.2)]))
+    forward = np.linspace(0.0, 0.2, 400)[:, None] * np.array([0.0, 0.0, 1.0])
+    onto = [(place + forward)[surroundings.distance(place + forward) < 0.004][0] for place in behind]
+    places = surroundings.proportions.measure(np.array(onto))
+    drawn = (field_at(places, off_shoulders=1.0) - field_at(places))[:, 0]
+    assert drawn[0] > 0.3
+    assert drawn[1] < -0.3
