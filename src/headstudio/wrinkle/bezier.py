@@ -13,6 +13,8 @@ from ..head.mesh import Floats, Ints
 _BASIS = np.array([[1.0, 0, 0, 0], [-3, 3, 0, 0], [3, -6, 3, 0], [-1, 3, -3, 1]])
 # Rounds of a fit, how much a difference along the curve counts in it, and the pull that keeps it bounded.
 _ROUNDS, _SLIDING, _PULL = 24, 0.1, 1e-6
+# Whether a fit will do is seen after so many rounds, if from then on it does not go so many times as fast.
+_TREND, _HOPE = 3, 2.0
 # Points on either side that decide the tangent where a stroke is cut in two.
 _TANGENT_POINTS = 3
 
@@ -165,7 +167,8 @@ def _fit_one(points: Floats, first: Floats | None, last: Floats | None, toleranc
     u = np.concatenate([[0.0], np.cumsum(lengths)]) / lengths.sum()
     along, sliding = np.zeros_like(points), 1.0
     best: tuple[Floats, Floats] | None = None
-    for _ in range(_ROUNDS):
+    worst: list[float] = []
+    for left in reversed(range(_ROUNDS)):
         controls = _least_squares(points, u, along, sliding, first, last, lengths.sum())
         c = (_BASIS @ controls)[None]
         for _ in range(2):
@@ -180,10 +183,19 @@ def _fit_one(points: Floats, first: Floats | None, last: Floats | None, toleranc
         error = np.linalg.norm(polynomial(c, u) - points, axis=1)
         if best is None or error.max() < best[1].max():
             best = controls, error
-        if error.max() <= 0.5 * tolerance:
+        worst.append(float(best[1].max()))
+        if error.max() <= 0.5 * tolerance or _hopeless(worst, left, tolerance):
             break
     assert best is not None
     return best
+
+
+def _hopeless(worst: list[float], left: int, tolerance: float) -> bool:
+    """Whether errors that fell as ``worst`` did so far will not be within the tolerance in the rounds that are left."""
+    if len(worst) <= _TREND:
+        return False
+    fell = worst[-1] / worst[-1 - _TREND]
+    return worst[-1] * fell ** (_HOPE * left / _TREND) > tolerance
 
 
 def _least_squares(
@@ -197,16 +209,15 @@ def _least_squares(
     # Each inner control point is an anchor plus free directions: both axes, or the tangent alone.
     free = [np.eye(2) if first is None else first[None], np.eye(2) if last is None else -last[None]]
     target = points - weights[:, :2].sum(axis=1)[:, None] * points[0] - weights[:, 2:].sum(axis=1)[:, None] * points[-1]
-    directions = np.concatenate([np.broadcast_to(side, (len(points), *side.shape)) for side in free], axis=1)
-    which = np.repeat([1, 2], [len(side) for side in free])
-    columns = weights[:, which, None] * directions
-    scale = np.eye(2) - (1.0 - sliding) * along[:, :, None] * along[:, None, :]
-    matrix = np.einsum("mij,mkj->mik", scale, columns).reshape(2 * len(points), -1)
-    wanted = np.einsum("mij,mj->mi", scale, target).ravel()
+    directions = np.concatenate(free)
+    own = weights[:, np.repeat([1, 2], [len(side) for side in free])]
+    # All of a difference counts, less what lies along the curve.
+    off = 1.0 - sliding**2
+    slid = own * (along @ directions.T)
+    normal = (own.T @ own) * (directions @ directions.T) - off * slid.T @ slid
+    wanted = ((own.T @ target) * directions).sum(axis=1) - off * slid.T @ (along * target).sum(axis=1)
     # A little pull toward the ends keeps control points near when few points decide them.
-    unknowns = matrix.shape[1]
-    matrix, wanted = np.concatenate([matrix, _PULL * np.eye(unknowns)]), np.concatenate([wanted, np.zeros(unknowns)])
-    solution = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
+    solution = np.linalg.solve(normal + _PULL**2 * np.eye(len(normal)), wanted)
     split = len(free[0])
     second, third = solution[:split] @ free[0], solution[split:] @ free[1]
     # A tangent that points backward would make a loop.

@@ -7,9 +7,10 @@ from dataclasses import replace
 from ...wrinkle.furrow import Furrow
 from ...wrinkle.furrow_editing import mirrored
 from ..studio import Studio
+from .choosing import OneChosen
 
 
-class FurrowSet:
+class FurrowSet(OneChosen):
     """Reads and replaces the furrows of the document. mirror: whether the other side of the face follows.
 
     The default set becomes the document's own with the first change.
@@ -18,21 +19,11 @@ class FurrowSet:
     def __init__(self, studio: Studio) -> None:
         self.studio = studio
         self.mirror = True
-        self._chosen: int | None = None
 
     @property
     def furrows(self) -> tuple[Furrow, ...]:
         """Those of the document, or the default set at the age of the skin."""
         return self.studio.document.wrinkle.chosen
-
-    @property
-    def chosen(self) -> int | None:
-        """The number of the furrow that is edited."""
-        return self._chosen if self._chosen is not None and self._chosen < len(self.furrows) else None
-
-    @chosen.setter
-    def chosen(self, number: int | None) -> None:
-        self._chosen = number
 
     def put(self, number: int, furrow: Furrow, label: str) -> None:
         """Another furrow in the place of one; with ``mirror`` the one across the face follows."""

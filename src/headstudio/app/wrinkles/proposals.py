@@ -12,6 +12,7 @@ from ...wrinkle.face_creases import face_layout
 from ...wrinkle.furrow import Furrow
 from ...wrinkle.inference import EXPRESSIONS, propose_furrows
 from ..studio import Studio, explain
+from .choosing import OneChosen
 
 
 class _Stopped(Exception):
@@ -62,27 +63,17 @@ class _Search:
         self.done = (0.5 + number) / (2 * len(EXPRESSIONS) + 0.5)
 
 
-class Proposals:
+class Proposals(OneChosen):
     """The proposals of the document: asks for them, and every answer is one change of the document."""
 
     def __init__(self, studio: Studio) -> None:
         self.studio = studio
         self._search: _Search | None = None
-        self._chosen: int | None = None
 
     @property
     def furrows(self) -> tuple[Furrow, ...]:
         """Those that have no answer yet."""
         return self.studio.document.wrinkle.proposals
-
-    @property
-    def chosen(self) -> int | None:
-        """The number of the proposal that is looked at."""
-        return self._chosen if self._chosen is not None and self._chosen < len(self.furrows) else None
-
-    @chosen.setter
-    def chosen(self, number: int | None) -> None:
-        self._chosen = number
 
     @property
     def progress(self) -> float | None:
