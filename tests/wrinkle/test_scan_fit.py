@@ -18,7 +18,7 @@ from headstudio.wrinkle.cross_profile import section_height
 from headstudio.wrinkle.cross_section import CrossSection, control_heights, half_width
 from headstudio.wrinkle.face_creases import face_bed
 from headstudio.wrinkle.fitting import FurrowFit, fit_grooves
-from headstudio.wrinkle.groove import Groove, GrooveBed, MetricField
+from headstudio.wrinkle.groove import SAMPLES, Groove, GrooveBed, MetricField
 from headstudio.wrinkle.scan_fit import fit_face
 from headstudio.wrinkle.scan_heights import ScanHeights, SkinTexels
 from headstudio.wrinkle.skin_layout import SkinLayout
@@ -161,7 +161,8 @@ def test_a_groove_ends_where_it_is_no_more_to_be_seen():
     groove = Groove(controls, 2e-3, 3e-3, HEIGHTS, taper=0.05, swell=(1.0, 1.0, 1.0, 0.0, 0.0))
     metrics, near = MetricField(texels), np.arange(len(texels.uv))
     bed = GrooveBed(groove, texels, metrics, near)
-    short = groove.trimmed(bed.arc_at, 0.06)
+    seen = np.ones(len(groove.chain.sampled(SAMPLES)[0]), dtype=bool)
+    short = groove.trimmed(bed.arc_at, seen, 0.06)
     assert np.array_equal(short.controls[0], controls[0])
     assert 0.6 < short.controls[-1, 0] < 0.68
     image, other = np.zeros((2, len(near)))
@@ -169,7 +170,10 @@ def test_a_groove_ends_where_it_is_no_more_to_be_seen():
     again = GrooveBed(short, texels, metrics, near)
     other[again.rows] = again.heights()[0]
     assert np.abs(image - other).mean() < 0.1 * np.abs(image).mean()
-    assert GrooveBed(short, texels, metrics, near).groove.trimmed(again.arc_at, 0.06) is short
+    # Nothing is known of its first half.
+    seen[: len(seen) // 2] = False
+    assert groove.trimmed(bed.arc_at, seen, 0.06).controls[0, 0] == pytest.approx(0.5, abs=0.03)
+    assert groove.trimmed(bed.arc_at, np.zeros_like(seen), 0.06) is groove
 
 
 def section_of(height) -> CrossSection:

@@ -22,6 +22,8 @@ from .valleys import valley_field
 _SMOOTH, _SAME_SHAPE = 0.014, 6e-4
 # A groove and its rims lie within so many widths, its floor within so many.
 _FOOT, _FLOOR = 4.0, 1.5
+# Where grooves run into each other they seem to have no end: none is wider than this [m].
+_WIDEST = 5e-3
 # A valley stands out when it is so many times the noise deep, this deep [m] and this part of the deepest.
 _OVER_NOISE, _SHALLOWEST, _PART = 4.0, 2.5e-4, 0.07
 # A first curve passes this near the valley [m]. It ends where less than this part of the depth is left.
@@ -41,6 +43,7 @@ _STEPS = (3, 4, 5)
 _SETTLED = 4e-3
 # The last are done again, at most so often, until a round brings less than this part.
 _ROUNDS, _SETTLED_ROUND = 6, 0.02
+_LAST = 3
 # Where less than this part of a groove is there, it ends.
 _OUT = 0.06
 # The depth of a groove may be another this far along it [m].
@@ -95,7 +98,7 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     _steps(fit, _STEPS[1], progress, "moving and sizing them", 0.25, 0.45)
 
     for k in range(_ROUNDS):
-        start, end = (0.45 + 0.55 * part / _ROUNDS for part in (k, k + 1))
+        start, end = (0.45 + 0.52 * part / _ROUNDS for part in (k, k + 1))
         progress("looking for what was missed", start)
         missed = _first_grooves(fit.heights.without(fit.height))
         # Now that others are nearly right, sections can be seen between them.
@@ -110,7 +113,8 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
             fit = tried
         if fell < _SETTLED_ROUND:
             break
-    fit = _pruned(fit)
+    fit = _pruned(fit.replaced(_trimmed(fit)))
+    _steps(fit, _LAST, progress, "moving and sizing them", 0.97, 1.0)
     progress("done", 1.0)
     return FurrowFit(tuple(fit.grooves), fit.motion, smooth, texels, fit.left)
 
@@ -192,8 +196,8 @@ def _pruned(fit: GrooveFit) -> GrooveFit:
 
 
 def _trimmed(fit: GrooveFit) -> list[Groove]:
-    """The grooves without ends that do not show, whose curves wind about as nothing holds them."""
-    return [bed.groove.trimmed(bed.arc_at, _OUT) for bed in fit.beds]
+    """The grooves without ends that do not show or leave the scan: nothing holds them, and they wind about."""
+    return [bed.groove.trimmed(bed.arc_at, fit.seen(bed.groove), _OUT) for bed in fit.beds]
 
 
 def _with_sections(fit: GrooveFit, clear: float) -> GrooveFit:
@@ -209,7 +213,7 @@ def _with_sections(fit: GrooveFit, clear: float) -> GrooveFit:
         height = fit.heights.height[bed.rows]
         seen = cross_section(bed.across, height, others, bed.wholeness(), clear * groove.floor)
         if seen.told:
-            width = half_width(seen, _FLOOR * groove.width)
+            width = min(half_width(seen, _FLOOR * groove.width), _WIDEST)
             section = control_heights(seen, width) / groove.depth
             swell = groove.swell or (1.0,) * int(np.clip(bed.length / _SWELL, 3, 12))
             groove = replace(groove, width=width, section=tuple(section.tolist()), swell=swell)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import NearestNDInterpolator
 from scipy.spatial import cKDTree
 
@@ -20,16 +21,18 @@ from .scan_heights import SkinTexels
 from .swell import swell_shares, swelling
 
 # Limits of what a fitted furrow may be [m].
-_SHALLOWEST, _DEEPEST, _WIDTHS, _TAPERS = 1e-5, 0.014, (5e-4, 0.016), (0.02, 0.5)
+_SHALLOWEST, _DEEPEST, _WIDTHS, _TAPERS = 1e-5, 0.014, (5e-4, 0.008), (0.02, 0.5)
 # Nowhere does a groove swell to more than this many times its depth.
 _FULLEST = 2.0
 # In one step width, taper and swell change by at most this (a factor's logarithm), places and depths by so much [m].
 _LOG_STEP, _STEP = 0.4, 1.5e-3
-# Samples of each Bezier curve, to begin from where feet are looked for.
-_SAMPLES = 24
 # A cross section is looked at in so many places to find its floor.
 _PLACES = 801
 _TINY = np.finfo(float).tiny
+
+
+SAMPLES = 24
+"""Samples of each Bezier curve, to begin from where feet are looked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,15 +78,18 @@ class Groove:
             pieces.append(halves[1:])
         return replace(self, controls=np.concatenate(pieces))
 
-    def trimmed(self, arc_at: Callable[[Floats], Floats], least: float) -> Groove:
-        """Without what lies beyond the first and the last place where a part ``least`` of the full depth is there.
+    def trimmed(self, arc_at: Callable[[Floats], Floats], seen: NDArray[np.bool_], least: float) -> Groove:
+        """Without what lies beyond the first and the last place where a part ``least`` of the full depth is there, and seen.
 
-        arc_at: from the parameter of the curve, (k,), to the length along it [m], (k,).
+        arc_at: from the parameter of the curve, (k,), to the length along it [m], (k,). seen: of each of its samples,
+        SAMPLES to a Bezier curve, whether anything is known of the skin there.
         """
-        t, _ = self.chain.sampled(_SAMPLES)
+        t, _ = self.chain.sampled(SAMPLES)
         arc = arc_at(t)
         whole = faded(self, arc, arc[-1]) * swelling(arc / arc[-1], self.swell)[0]
-        shown = np.flatnonzero(whole >= least * whole.max())
+        shown = np.flatnonzero(seen & (whole >= least * whole.max(where=seen, initial=0.0)))
+        if not len(shown):
+            return self
         first, last = max(shown[0] - 1, 0), min(shown[-1] + 1, len(t) - 1)
         if last - first < 2 or last - first == len(t) - 1:
             return self
@@ -142,7 +148,7 @@ class GrooveBed:
         self.groove = groove
         self.length = laid.length
         chain = laid.chain
-        samples, places = chain.sampled(_SAMPLES)
+        samples, places = chain.sampled(SAMPLES)
         at_samples = metrics.at(places)
         # The nearest sample in space is close to the foot, which is then found on the curve.
         _, first = cKDTree(laid.line_at(samples)).query(texels.positions[near])

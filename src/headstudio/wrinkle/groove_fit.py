@@ -11,12 +11,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from ..head.mesh import Floats, Ints
-from .groove import Groove, GrooveBed, MetricField
+from .groove import SAMPLES, Groove, GrooveBed, MetricField
 from .scan_heights import ScanHeights
 
 # Distances below this count by their square [m]: the noise of a scan.
@@ -29,6 +30,8 @@ _DAMPING, _EASED, _STIFFER, _TRIES = 1e-2, 0.3, 6.0, 4
 _LOG, _PLACE, _TURN = 0.3, 1e-3, 0.01
 # Texels farther than this from a curve's samples, besides its reach, are not looked at [m].
 _SLACK = 5e-3
+# A scan covers what lies this near to one of its texels [m].
+_COVERED = 2e-3
 
 
 class _Placed:
@@ -60,6 +63,7 @@ class GrooveFit:
         self.motion = np.eye(4)
         self._metrics = MetricField(self.texels)
         self._rows: Ints = np.flatnonzero(heights.covered)
+        self._covered = cKDTree(self.texels.positions[self._rows])
         self._upright = uprightness(heights)
         self._area = np.where(heights.covered, self.texels.area, 0.0)
         self._area /= self._area.sum()
@@ -184,10 +188,15 @@ class GrooveFit:
 
     def _line(self, groove: Groove) -> Floats:
         """Points of a curve on the skin [m], (k, 3)."""
-        _, places = groove.chain.sampled(24)
+        _, places = groove.chain.sampled(SAMPLES)
         found, _ = self.texels.layout.locate(places)
         mesh = self.texels.layout.texture_map.mesh
         return found.blend(mesh.vertices, mesh.faces)
+
+    def seen(self, groove: Groove) -> NDArray[np.bool_]:
+        """Which samples of a groove's curve the scan covers, (k,)."""
+        away, _ = self._covered.query(self._line(groove), distance_upper_bound=_COVERED)
+        return np.isfinite(away)
 
     def _bed(self, groove: Groove) -> GrooveBed:
         return GrooveBed(groove, self.texels, self._metrics, self._near(groove))
