@@ -22,6 +22,7 @@ from .makehuman_data import (
 )
 from .mesh import Floats, TriangleMesh
 from .subdivision import QuadMesh, catmull_clark
+from .teeth import dental_row
 
 DECIMETRE = 0.1
 
@@ -57,7 +58,7 @@ _EYE_SHRINK = 0.98
 # Offsets below this [m] are dropped from the expressions.
 _SMALLEST_OFFSET = 1e-6
 
-_MOUTH = (("helper-upper-teeth", "teeth"), ("helper-lower-teeth", "teeth"), ("helper-tongue", "tongue"))
+_MOUTH = ("helper-upper-teeth", "helper-lower-teeth", "helper-tongue")
 _LASHES = ("eyelashes-1", "eyelashes-2")
 
 
@@ -81,7 +82,7 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
     landmarks = _landmarks(body, carry, eyes)
     skin, cut = cut_bust(body, landmarks)
     carry = cut @ carry
-    mouth = tuple(_mouth_part(kind, _smooth(base, vertices, group).triangulated()) for group, kind in _MOUTH)
+    mouth = tuple(_mouth_part(base, vertices, group) for group in _MOUTH)
     return Head(
         name="makehuman",
         skin=skin,
@@ -125,8 +126,12 @@ def _smooth(base: BaseMesh, vertices: Floats, group: str) -> QuadMesh:
     return catmull_clark(quads)[0]
 
 
-def _mouth_part(kind: str, mesh: TriangleMesh) -> Part:
-    return Part(kind, mesh.moved(mesh.vertices + (_TONGUE_LIES if kind == "tongue" else _TEETH_MEET)))
+def _mouth_part(base: BaseMesh, vertices: Floats, group: str) -> Part:
+    """The tongue, or a row of teeth: MakeHuman's are boxes, and give no more than the place."""
+    mesh = _smooth(base, vertices, group).triangulated()
+    if "tongue" in group:
+        return Part("tongue", mesh.moved(mesh.vertices + _TONGUE_LIES))
+    return Part("teeth", dental_row(mesh.moved(mesh.vertices + _TEETH_MEET), upper="upper" in group))
 
 
 def _lashes(base: BaseMesh, vertices: Floats) -> tuple[Part, ...]:
