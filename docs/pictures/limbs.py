@@ -1,4 +1,5 @@
-"""The sheet of hands, arm, foot and aged skin of docs/faces.md (Bando's thesis, figures 2.16 to 2.20).
+"""The sheet of hands, arm, foot and aged skin of docs/faces.md, each without and with wrinkles
+(Bando's thesis, figures 2.16 to 2.20).
 
 python docs/pictures/limbs.py [FOLDER]
 """
@@ -22,25 +23,22 @@ from headstudio.params import assign
 from headstudio.scene.document import Document
 from headstudio.wrinkle.hand_settings import HandSettings
 
-SIZE = (360, 360)
+SIZE = (440, 440)
 CLOSE: dict[str, Any] = {"fine.texture_size": 1024, "skin.relief": 3.0}
 FROM_ABOVE: dict[str, Any] = {"camera.elevation": 0.8}
-# Limb, pose, age, wrinkled, the joint that is looked at, other settings, caption.
-SHEET: tuple[tuple[str, str, float, bool, str | None, dict[str, Any], str], ...] = (
-    ("hand", "relaxed", 0.5, False, None, {}, "2.16, without wrinkles"),
-    ("hand", "relaxed", 0.5, True, None, {}, "2.16, with wrinkles"),
-    ("hand", "open", 0.5, True, "middle proximal", CLOSE, "2.17 a, a knuckle at rest"),
-    ("hand", "fist", 0.5, True, "middle proximal", CLOSE | FROM_ABOVE, "2.17 b, expanded in a fist"),
-    ("foot", "rest", 0.5, False, None, {}, "2.18, without wrinkles"),
-    ("foot", "rest", 0.5, True, None, {}, "2.18, with wrinkles"),
-    ("arm", "relaxed", 0.5, False, None, {}, "2.19, without wrinkles"),
-    ("arm", "relaxed", 0.5, True, None, {}, "2.19, with wrinkles"),
-    ("hand", "relaxed", 1.0, True, None, {"skin.relief": 2.0}, "2.20, aged hand"),
+OLD: dict[str, Any] = {"wrinkle.age": 1.0}
+# Limb, pose, age, the joint that is looked at, other settings, caption.
+LIMBS: tuple[tuple[str, str, float, str | None, dict[str, Any], str], ...] = (
+    ("hand", "relaxed", 0.5, None, {}, "2.16"),
+    ("hand", "open", 0.5, "middle proximal", CLOSE, "2.17 a, a knuckle at rest"),
+    ("hand", "fist", 0.5, "middle proximal", CLOSE | FROM_ABOVE, "2.17 b, expanded in a fist"),
+    ("foot", "rest", 0.5, None, {}, "2.18"),
+    ("arm", "relaxed", 0.5, None, {}, "2.19"),
+    ("hand", "relaxed", 1.0, None, {"skin.relief": 2.0}, "2.20, aged hand"),
 )
 FACES: tuple[tuple[dict[str, Any], str], ...] = (
-    ({"head.source": "makehuman", "head.age": 0.95, "wrinkle.age": 1.0}, "2.20, aged face, MakeHuman"),
-    ({"head.source": "mannequin", "wrinkle.age": 1.0}, "2.20, aged face, mannequin"),
-    ({"head.source": "makehuman", "head.age": 0.95, "wrinkle.age": 1.0, "wrinkle.shown": False}, "without wrinkles"),
+    (OLD | {"head.source": "makehuman", "head.age": 0.95}, "2.20, aged face, MakeHuman"),
+    (OLD | {"head.source": "mannequin"}, "2.20, aged face, mannequin"),
 )
 
 
@@ -49,18 +47,23 @@ def main(folder: Path) -> None:
     pictures, captions = [], []
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch) / "picture.png"
-        for which, pose, age, wrinkled, near, settings, caption in SHEET:
+        for which, pose, age, near, settings, caption in LIMBS:
             view = "front" if near else "three-quarter"
             document = assign(choose_view(Document(), view), {"head.age": age, **settings})
-            limb(document, which, assign(HandSettings(), {"pose": pose}), wrinkled, SIZE, out, near)
-            pictures.append(_read(out))
-            captions.append(caption)
+            for wrinkled in (False, True):
+                limb(document, which, assign(HandSettings(), {"pose": pose}), wrinkled, SIZE, out, near)
+                pictures.append(_read(out))
+                captions.append(_caption(caption, wrinkled))
         for face, caption in FACES:
-            document = with_face(assign(Document(), face), None, (), face.get("wrinkle.shown", True))
-            wrinkle(document, out, SIZE, framed=True)
-            pictures.append(_read(out))
-            captions.append(caption)
+            for wrinkled in (False, True):
+                wrinkle(with_face(assign(Document(), face), None, (), wrinkled), out, SIZE, framed=True)
+                pictures.append(_read(out))
+                captions.append(_caption(caption, wrinkled))
     save_picture(contact_sheet(pictures, captions, 4), folder / "limbs.png")
+
+
+def _caption(figure: str, wrinkled: bool) -> str:
+    return f"{figure}, {'with' if wrinkled else 'without'} wrinkles"
 
 
 def _read(path: Path) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..head.mesh import Floats
 from ..params import parameters_of
-from ..render.view import camera_view
+from ..render.view import camera_view, fitting
 from ..scene.settings import Camera
 
 ORBIT_RATE = math.pi  # a drag over the height of the view turns by half a turn
@@ -37,13 +37,7 @@ def zoom(camera: Camera, notches: float) -> Camera:
 
 def frame(camera: Camera, points: Floats, aspect: float, margin: float = 1.08) -> Camera:
     """See all of ``points`` [m], shape (n, 3), from the same side. ``aspect``: width over height of the view."""
-    right, up, back = axes(camera)
-    centre = (points.min(axis=0) + points.max(axis=0)) / 2
-    rise = math.tan(camera.field_of_view / 2) / margin
-    offset = points - centre
-    # Nearest distance at which each point is still inside the side planes of the view.
-    needed = np.maximum(np.abs(offset @ up) / rise, np.abs(offset @ right) / (rise * aspect)) + offset @ back
-    return _looking_at(replace(camera, distance=float(needed.max())), centre)
+    return _within_range(fitting(camera, points, aspect, margin))
 
 
 def target(camera: Camera) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from ..head.mesh import Floats, TriangleMesh
 from ..head.rig import BodyPart, is_hand
 from ..head.rigged import load_rigged
 from ..params import ParameterError, assign
+from ..render.view import fitting
 from ..scene.document import Document
 from ..wrinkle.hand import Hand
 from ..wrinkle.hand_settings import HandSettings
@@ -23,8 +25,7 @@ from .pictures import Photographer, Size, check_is_picture, save_picture
 from .reporting import say, warn, working
 
 LIMBS = ("hand", "arm", "foot")
-# Room for the limb in the picture, in lengths of its longest side; and for what is looked at from close by [m].
-_ROOM = 1.15
+# How much of what is looked at from close by is seen [m].
 _CLOSE = 0.042
 
 
@@ -53,16 +54,12 @@ def limb(
         furrows = joint_furrows(part, document.fine.seed) if strength > 0 and posable else ()
         skin = WrinkledLimb(limb_skin, furrows, fine, along=along, bare=bare, strength=min(strength, 2.0))
         shown = skin.at(posed)
-    low, high = shown.positions.min(axis=0), shown.positions.max(axis=0)
-    x, y, z = 0.5 * (low + high)
-    room = _ROOM * float(np.linalg.norm(high - low))
+    camera = fitting(document.camera, shown.positions, size[0] / size[1])
     if near is not None:
-        (x, y, z), room = posed[_back_of(part, near)], _CLOSE
-    distance = 0.5 * room / math.tan(0.5 * document.camera.field_of_view)
-    document = assign(
-        document,
-        {"camera.target_x": x, "camera.target_y": y, "camera.target_z": z, "camera.distance": distance},
-    )
+        x, y, z = (float(value) for value in posed[_back_of(part, near)])
+        distance = 0.5 * _CLOSE / math.tan(0.5 * camera.field_of_view)
+        camera = replace(camera, target_x=x, target_y=y, target_z=z, distance=distance)
+    document = replace(document, camera=camera)
     photographer = Photographer(size)
     photographer.renderer.render_limb(shown, document.look, document.camera, size, 2, document.skin)
     save_picture(photographer.renderer.read_pixels(), out)

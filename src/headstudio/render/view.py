@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,6 +58,23 @@ def perspective_view(eye: Floats, target: Floats, field_of_view: float, aspect: 
     """The view from ``eye`` to ``target`` [m] with this vertical angle [rad]; ``aspect`` is width over height."""
     distance = float(np.linalg.norm(target - eye))
     return _perspective(eye, target, field_of_view, aspect, 0.02 * distance, distance + _REACH)
+
+
+def fitting(camera: Camera, points: Floats, aspect: float, margin: float = 1.08) -> Camera:
+    """The camera that sees all of ``points`` [m], (n, 3), from the same side, with some room about them.
+
+    ``aspect``: width over height of the picture.
+    """
+    view = camera_view(camera, 1.0)
+    axes = np.stack([view.right, view.up, -view.forward])
+    seen = points @ axes.T
+    middle = 0.5 * (seen.min(axis=0) + seen.max(axis=0))
+    across, up, back = (seen - middle).T
+    rise = np.tan(0.5 * camera.field_of_view) / margin
+    # Nearest distance at which each point is still inside the side planes of the view.
+    needed = np.maximum(np.abs(up) / rise, np.abs(across) / (rise * aspect)) + back
+    x, y, z = (float(value) for value in middle @ axes)
+    return replace(camera, target_x=x, target_y=y, target_z=z, distance=float(needed.max()))
 
 
 @dataclass(frozen=True, eq=False)
