@@ -1,5 +1,6 @@
 #version 330
 // What living skin is like at a pixel; skin/light.frag is the light on it.
+#include "common/brow.glsl"
 uniform sampler2D strands;
 in vec4 v_normal;
 in vec4 v_paint;
@@ -12,9 +13,7 @@ layout(location = 3) out vec2 place_in_map;
 layout(location = 4) out vec4 state;   // amplitude of both fine fields, of pores, and the value shown
 
 void main() {
-    // Brow hairs lie outwards and up: fine strokes, not a stain.
-    float stroke = textureLod(strands, vec2(v_state.w, 0.5), 0.0).r;
-    float brow = smoothstep(0.2, 0.8, v_paint.z * (0.9 + 0.4 * stroke)) * 0.9;
+    float brow = brow_cover(v_paint.z, v_state.w, strands);
     vec3 n = normalize(v_normal.xyz);
     normal = vec4(gl_FrontFacing ? n : -n, v_normal.w);
     // The inside of the skin, seen through an open mouth, is dark.

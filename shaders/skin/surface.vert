@@ -1,6 +1,7 @@
 #version 330
 #include "common/scene.glsl"
 #include "common/pose.glsl"
+#include "common/brow.glsl"
 uniform float creases;   // strength of the shade in creases
 uniform float wrinkled;  // 0 where fine wrinkles are left out
 in vec3 position;
@@ -15,7 +16,7 @@ in float cover;   // how densely hair stands
 out vec4 v_normal;  // and curvature
 out vec4 v_paint;   // hidden, lips, brows, blood
 out vec4 v_map;     // place in the map, how far inside, cover
-out vec4 v_state;   // amplitude of both fine fields, value shown, place across the hairs of the brows
+out vec4 v_state;   // amplitude of both fine fields, value shown, place across the hairs of the brows [m]
 
 void main() {
     vec3 turn = head_turn.xyz * body.x;
@@ -24,6 +25,6 @@ void main() {
     float open = (1.0 - paint.x) * max(1.0 - creases * state.z, 0.0);
     v_paint = vec4(1.0 - open, paint.yzw);
     v_map = vec4(uv, body.z * wrinkled, cover);
-    v_state = vec4(state.xyw, 9.0 * (0.6 * abs(rest.x) - 0.8 * rest.y));
+    v_state = vec4(state.xyw, across_brow(rest));
     gl_Position = clip_from_world * vec4(place, 1.0);
 }

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from headstudio.head.mesh import Floats
-from headstudio.render.view import View, camera_view, light_view, orbit_direction
+from headstudio.render.view import View, camera_view, fitting, light_view, orbit_direction
 from headstudio.scene.settings import Camera, Look
 
 
@@ -41,3 +41,14 @@ def test_light_box_holds_its_sphere(height: float) -> None:
     assert view.depth(nearest) == pytest.approx(0.0, abs=1e-12)
     axes = np.stack([view.right, view.up, view.forward])
     np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+
+
+@pytest.mark.parametrize("aspect", [0.5, 1.0, 2.0])
+def test_a_fitting_camera_sees_all_points_and_little_else(aspect: float) -> None:
+    points = np.random.default_rng(3).normal(0.3, 0.1, (200, 3)) * [0.3, 2.0, 0.5]
+    camera = Camera(azimuth=0.7, elevation=0.3)
+    fitted = fitting(camera, points, aspect)
+    assert (fitted.azimuth, fitted.elevation) == (camera.azimuth, camera.elevation)
+    clip = np.column_stack([points, np.ones(200)]) @ camera_view(fitted, aspect).clip_from_world.T
+    seen = np.abs(clip[:, :2] / clip[:, 3:])
+    assert 0.8 < seen.max() < 1.0
