@@ -7,6 +7,7 @@
 #include "common/deep_opacity.glsl"
 #include "common/fibre.glsl"
 #include "common/soft_light.glsl"
+#include "common/pile.glsl"
 uniform sampler2D hair_colours;
 uniform bool coloured;         // every point has a colour of its own
 uniform vec3 hair_absorption;  // else: per radius
@@ -78,7 +79,7 @@ void main() {
     vec3 endless, passed;
     pile(sent_in[0], sent_in[1], endless, passed);
     float direct = exp(-crossed);
-    vec3 scattered = exp(-crossed * (1.0 - passed)) - direct;
+    vec3 scattered = passing(sent_in[0], sent_in[1], crossed, behind) - direct;
 
     mat4x3 soft = soft_light(point.xyz);
     mat3 slope = mat3(soft[1], soft[2], soft[3]);

@@ -31,6 +31,9 @@ from .strand_scenes import BALL_RADIUS, ball, fur, strands_crossed
 TO_LIGHT = np.array([0.36, 0.80, 0.48])
 MELANIN = 0.6
 
+BLACK = (np.zeros(3), np.zeros(3))
+"""What strands send forward and back that keep all light."""
+
 
 def material(melanin: float = MELANIN, **fibre: float) -> StrandMaterial:
     red, green, blue = melanin_absorption(melanin, 0.4)
@@ -160,13 +163,34 @@ def test_shader_scatters_as_the_reference_does(
     del kept
 
 
+def test_light_through_strands_is_that_of_kubelka_and_munk(gl: moderngl.Context, programs: StrandPrograms) -> None:
+    strands = fur(3_000, points=8)
+    hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
+    low, high = strands.points.min(axis=0), strands.points.max(axis=0)
+    places = np.random.default_rng(9).uniform(low, high, (300, 3))
+    crossed = -np.log(hair.sunlit(places, maps, BLACK)[:, 0])
+    # White hair passes on what it does not send back; coloured hair keeps some. Light that is scattered meets pi / 2 as many.
+    forward, back = np.array([0.5, 0.6, 0.2]), np.array([0.5, 0.2, 0.1])
+    through = hair.sunlit(places, maps, (forward, back))
+    white = 1 / (1 + 0.5 * np.pi / 2 * crossed)
+    np.testing.assert_allclose(through[:, 0], np.maximum(white, np.exp(-crossed)), atol=2e-3)
+    for k in (1, 2):
+        # K and S of their paper; the layer ends at something black.
+        a, s = 1 + (1 - forward[k] - back[k]) / back[k], back[k] * np.pi / 2
+        b = np.sqrt(a * a - 1)
+        wanted = b / (a * np.sinh(b * s * crossed) + b * np.cosh(b * s * crossed))
+        np.testing.assert_allclose(through[:, k], np.maximum(wanted, np.exp(-crossed)), atol=2e-3)
+    assert (crossed > 0.5).any()
+    buffer.release()
+
+
 def test_deep_opacity_is_what_rays_meet(gl: moderngl.Context, programs: StrandPrograms) -> None:
     strands = fur(3_000, points=8)
     hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
     rng = np.random.default_rng(8)
     low, high = strands.points.min(axis=0), strands.points.max(axis=0)
     places = rng.uniform(low, high, (900, 3))
-    through = hair.sunlit(places, maps, np.ones(3))[:, 0]
+    through = hair.sunlit(places, maps, BLACK)[:, 0]
     met = strands_crossed(strands, places, np.full(len(places), -1), TO_LIGHT)
     seen = (met == 0).astype(float)
     assert 0.2 < seen.mean() < 0.8

@@ -187,14 +187,19 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
     return FibreTables(around, spread, np.stack(halves, axis=-1))
 
 
-def passed_on(tables: FibreTables, absorption: Floats) -> Floats:
-    """By what light grows less from strand to strand, RGB, (3,), at a middling inclination.
-
-    Strands one behind the other are a pile of plates (Stokes 1862) which pass on ``forward`` and send ``back``.
-    """
+def sent_on(tables: FibreTables, absorption: Floats) -> tuple[Floats, Floats]:
+    """What a strand sends forward and back of the light it meets, RGB, (3,) each, at a middling inclination."""
     coded = absorption / (1 + absorption)
     place = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)
     forward, back = (np.interp(coded, place, tables.albedo[:, SINES // 2, part]) for part in (0, 1))
+    return forward, back
+
+
+def passed_on(forward: Floats, back: Floats) -> Floats:
+    """By what light grows less from strand to strand, (3,), of which each sends so much ``forward`` and ``back``.
+
+    Strands one behind the other are a pile of plates (Stokes 1862).
+    """
     s = 1 + back**2 - forward**2
     endless = 2 * back / (s + np.sqrt(np.maximum(s**2 - 4 * back**2, 0.0)))
     return forward / (1 - back * endless)

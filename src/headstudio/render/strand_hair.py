@@ -14,7 +14,7 @@ from ..head.mesh import Floats
 from ..wisp.strands import Singles
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
-from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, passed_on
+from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, passed_on, sent_on
 from .fibre_textures import FibreTextures
 from .light_volume import LightVolume, grid_around
 from .receivers import receive
@@ -173,19 +173,28 @@ class StrandHair:
             self._soft.release()
         self._soft = LightVolume(self._context, self._grid, sky_light.gather(self._grid.places, sky, lost))
 
-    def lost(self, material: StrandMaterial) -> Floats:
-        """Of light that meets a strand, the part that does not go on, RGB, in the mean over the hair."""
+    def sent_on(self, material: StrandMaterial) -> tuple[Floats, Floats]:
+        """Of light that meets a strand, what goes on and what comes back, RGB, (3,) each, in the mean over the hair."""
         absorption = np.array(material.absorption)
         if self._mean_colour is not None:
             absorption = colour_absorption(self._mean_colour, material.fibre.radial_roughness)
-        return 1.0 - passed_on(fibre_tables(material.fibre), absorption)
+        return sent_on(fibre_tables(material.fibre), absorption)
 
-    def sunlit(self, places: Floats, maps: LightTargets, lost: Floats) -> Floats:
-        """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3): RGB, (n, 3)."""
+    def lost(self, material: StrandMaterial) -> Floats:
+        """Of soft light that meets a strand, the part that does not go on, RGB, in the mean over the hair."""
+        return 1.0 - passed_on(*self.sent_on(material))
+
+    def sunlit(self, places: Floats, maps: LightTargets, sent: tuple[Floats, Floats]) -> Floats:
+        """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3), between the strands and by
+        way of them: RGB, (n, 3). sent: as ``sent_on`` says.
+        """
         assert self.opacity is not None
         maps.depth.use(1)
         maps.map.use(2)
-        uniforms = {"shadow_map": 1, "light_map": 2, "lost": tuple(lost), **self.light_uniforms(3)}
+        uniforms = {
+            "shadow_map": 1, "light_map": 2, "sent_forward": tuple(sent[0]), "sent_back": tuple(sent[1]),
+            **self.light_uniforms(3),
+        }  # fmt: skip
         return receive(self._context, self._programs.screens, "sunlit", places, 1, **uniforms)[:, 0, :3]
 
     def shade(self, material: StrandMaterial) -> None:

@@ -28,9 +28,6 @@ from .targets import light_targets, picture_targets
 from .view import View, bounding_sphere, parallel_view
 
 SHADOW_SIZE = 1024
-# Of the sunlight that strands pass on, what still falls on the skin behind them: strands fan light out, and much of it
-# leaves the thin hair that shades skin sideways.
-_ONWARD = 0.5
 # Points of the hair around which the body gets triangles no larger than this [m].
 _CONTACTS, _CONTACT_SIZE = 60_000, 0.004
 FINENESS = 2
@@ -93,8 +90,8 @@ def strand_picture(
     soft = np.pi * np.broadcast_to(scene.sky, body.vertices.shape) * 0.5
     above = body.vertices + 0.002 * body.normals
     facing = np.maximum(body.normals @ scene.sun_direction, 0.0)[:, None]
-    shade = 1.0 - _ONWARD * (1.0 - lost)
-    sunlit = facing * hair.sunlit(above, maps, lost) * scene.sun
+    forward, back = sent = hair.sent_on(scene.material)
+    sunlit = facing * hair.sunlit(above, maps, sent) * scene.sun
     for _ in range(BOUNCES):
         sky_light.see_body(scene.diffuse / np.pi * (soft + sunlit))
         soft = irradiance(sky_light.gather(above, sky, lost), body.normals)
@@ -112,7 +109,10 @@ def strand_picture(
         targets.scene.clear(red, green, blue, 1.0, depth=1.0)
         maps.depth.use(0)
         maps.map.use(1)
-        body.draw(scene.diffuse, lost=tuple(shade), shadow_map=0, light_map=1, **hair.light_uniforms(8))
+        body.draw(
+            scene.diffuse, sent_forward=tuple(forward), sent_back=tuple(back), shadow_map=0, light_map=1,
+            **hair.light_uniforms(8),
+        )  # fmt: skip
     with context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
         targets.scene.depth_mask = False
         context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
