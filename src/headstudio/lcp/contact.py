@@ -23,7 +23,8 @@ LONGEST_LINK = 1.08
 # Time in which hair below the surface comes out again [s]. As a force (eq. 3.24) it would lose against a stiff spring.
 _EMERGENCE = 0.03
 _DEEPEST = 0.001  # that hair may be below the surface at the end of a step [m]
-_RESTING = 0.001  # hair this close to where it touches lies on the body [m]
+RESTING = 0.001
+"""Hair this close to where it touches lies on the body [m]."""
 _THICKNESS = 0.5  # of the mean distance of particles: where the surface of a particle's hair touches the body
 _BEGINNING = 3.0  # of it: so much of a hair may lie closer to the skin than that
 # A pull toward the root that would lead into the body goes along it instead, unless it stands this steep on it.
@@ -53,32 +54,37 @@ def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) 
     return Touching(planes.distance, planes.normals, planes.velocity, keep)
 
 
+def least_departure(touch: Touching, distance: Floats, dt: float) -> Floats:
+    """How fast a particle must at least leave its plane, so that dt [s] do not lead it into the body [m/s], (n,).
+
+    distance: of the positions that the step starts from [m], (n,). Negative as long as it is free to approach: eq. 3.21 is
+    the limit of a small step. Positive below the surface, where hair comes out (3.24).
+    """
+    depth = np.maximum(np.minimum(touch.keep, 0.0) - distance, 0.0)
+    return np.where(depth > 0, depth / max(_EMERGENCE, dt), -np.maximum(distance - touch.keep, 0.0) / dt)
+
+
 def stop_at_body(
     velocities: Floats, touch: Touching, distance: Floats, friction: float, dt: float
 ) -> tuple[Floats, Floats]:
-    """Velocities [m/s] that do not lead into the body within dt [s], and what of the change will last, (n, 3) each.
+    """Velocities [m/s] that do not lead into the body within dt [s], (n, 3), and what that took along the normal, (n,).
 
     distance: of the positions that the step starts from [m], (n,). Eq. 3.20 and 3.21 stop the normal part, 3.22 and 3.23
-    (Coulomb, coefficient ``friction``) slow down the tangential one, and what is below the surface comes out (3.24). Hair
-    that lies on the body is held by the first two again in the next step; hair that has just hit it is not.
+    (Coulomb, coefficient ``friction``) slow down the tangential one, and what is below the surface comes out (3.24).
     """
     approach = np.einsum("ij,ij->i", velocities - touch.velocity, touch.normals)
-    # What is still free to go before the particle touches. Eq. 3.21 is the limit of a small step.
-    allowed = -np.maximum(distance - touch.keep, 0.0) / dt
-    depth = np.maximum(np.minimum(touch.keep, 0.0) - distance, 0.0)
-    impulse = np.maximum(allowed - approach, 0.0)
-    emerging = np.maximum(depth / max(_EMERGENCE, dt) - np.maximum(approach, 0.0), 0.0)
-    meets = np.flatnonzero(impulse + emerging > 0)
-    normals, impulse = touch.normals.take(meets, axis=0), impulse[meets]
+    least = least_departure(touch, distance, dt)
+    change = np.maximum(least - approach, 0.0)
+    meets = np.flatnonzero(change > 0)
+    # Friction answers what stops hair, not what lets it come out.
+    impulse = np.maximum(np.minimum(least[meets], 0.0) - approach[meets], 0.0)
+    normals = touch.normals.take(meets, axis=0)
     sliding = velocities.take(meets, axis=0) - touch.velocity.take(meets, axis=0) - approach[meets, None] * normals
     speed = np.sqrt(np.einsum("ij,ij->i", sliding, sliding))
     braked = np.minimum(friction * impulse, speed) / np.maximum(speed, 1e-12)
-    held = impulse[:, None] * normals - braked[:, None] * sliding
-    stopped, lasting = velocities.copy(), np.zeros_like(velocities)
-    stopped[meets] += held + emerging[meets, None] * normals
-    lies = distance[meets] <= touch.keep[meets] + _RESTING
-    lasting[meets[lies]] = held[lies]
-    return stopped, lasting
+    stopped = velocities.copy()
+    stopped[meets] += change[meets, None] * normals - braked[:, None] * sliding
+    return stopped, change
 
 
 def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Floats) -> Floats:

@@ -107,18 +107,18 @@ class Dynamics:
     def hold(
         self, start: Floats, velocities: Floats, touch: Touching, distance: Floats, now: Circumstances, dt: float
     ) -> tuple[Floats, Floats]:
-        """Velocities [m/s] after hands, body and reach have had their say, and how the body goes on pushing, (n, 3) each.
+        """Velocities [m/s] after hands, body and reach have had their say, (n, 3), and what the body did along its normal.
 
-        A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s]. The push is the
-        acceleration [m/s^2] of hair that lies on the body.
+        A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s]. The latter: [m/s],
+        (n,).
         """
         with self.timer.stage("contact"):
             if now.parting is not None:
                 velocities = now.parting.guided(start, velocities)
-            velocities, held = stop_at_body(velocities, touch, distance, now.settings.body_friction, dt)
+            velocities, stopped = stop_at_body(velocities, touch, distance, now.settings.body_friction, dt)
             velocities = stop_at_reach(self.model, start, velocities, touch, distance, dt)
-        velocities[self.model.fixed] = held[self.model.fixed] = 0.0
-        return velocities, held / dt
+        velocities[self.model.fixed] = stopped[self.model.fixed] = 0.0
+        return velocities, stopped
 
     def put_back(self, positions: Floats, touch: Touching, distance: Floats, now: Circumstances) -> Floats:
         """Positions [m], (n, 3), at ``distance`` from their planes, with what is too deep or too far put back."""

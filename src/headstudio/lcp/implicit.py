@@ -23,6 +23,7 @@ import numpy as np
 from ..head.mesh import Floats
 from .dynamics import Circumstances, Dynamics
 from .model import HairState
+from .resting import Meeting, solve_at_body
 from .spring_matrix import SpringMatrix
 
 # A step has four parts for links of 3 cm, and more the shorter they are: of what a head's shake does in a part, no link
@@ -31,7 +32,7 @@ _FEWEST_PARTS, _MOST_PARTS = 4, 6
 _PART_LENGTH = 0.12  # [m]
 _PARTICLES_IN_TIME = 8000  # particles times parts that keep up with real time
 _STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
-_TOLERANCE = 1e-2
+_TOLERANCE = 2e-2
 
 
 class ImplicitSolver:
@@ -40,12 +41,17 @@ class ImplicitSolver:
     def __init__(self, dynamics: Dynamics, parts: int | None = None, tolerance: float = _TOLERANCE) -> None:
         """parts: of a step; by the length of links and what real time affords if not given. tolerance: of the solution."""
         self.dynamics = dynamics
-        self.iterations = 0
         model = dynamics.model
         length = float(np.median(model.rest_length)) if len(model.rest_length) else _PART_LENGTH
         affordable = min(_PARTICLES_IN_TIME // max(model.count, 1), _MOST_PARTS)
         self.parts = parts or max(_FEWEST_PARTS, round(_PART_LENGTH / length), affordable)
-        self._matrix = SpringMatrix(model, dynamics.springs, tolerance)
+        self.tolerance = tolerance
+        self._matrix = SpringMatrix(model, dynamics.springs)
+
+    @property
+    def iterations(self) -> int:
+        """How many iterations of conjugate gradients all steps have taken."""
+        return self._matrix.iterations
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
@@ -68,39 +74,45 @@ class ImplicitSolver:
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
         x_before, v_before = state.before or self._earlier(state, now, outer, rest_turn, dt)
-        # Hair that lies on the body goes on lying there. Without that push the solution would let it fall, and take its
-        # neighbours along before the body could stop it.
-        push = np.zeros_like(x) if state.before is None or state.push is None else state.push
         x_hat, v_hat = (4.0 * x - x_before) / 3.0, (4.0 * v - v_before) / 3.0
         g = 2.0 * dt / 3.0
 
         ahead = x_hat + g * v
         links = dynamics.links(ahead, settings)
         load = dynamics.springs.load(links, settings)
-        force = mass * (outer + push + dynamics.inner_acceleration(settings, frame, ahead, v, rest_turn, dt))
+        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v, rest_turn, dt))
         force += dynamics.springs.forces(links, load, v)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
+        # The plane that a particle is heading for tells how far from it the step starts.
+        meeting = Meeting.ahead(dynamics.touch(ahead, frame), v, g)
+        pressing = np.zeros(model.count) if state.before is None or state.pressing is None else state.pressing
         with dynamics.timer.stage("solve"):
             inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
             self._matrix.update(links, load, g, inertia * model.mass)
-            change = self._matrix.solve(right, v - v_before)
-            self.iterations += self._matrix.iterations
+            change, pressing = solve_at_body(
+                self._matrix,
+                right,
+                v - v_before,
+                meeting,
+                model.fixed,
+                pressing,
+                settings.body_friction,
+                g,
+                self.tolerance,
+            )
 
         free = v + change
-        # The plane that a particle would run into tells how far from it the step starts.
-        touch = dynamics.touch(x_hat + g * free, frame)
-        distance = touch.distance - g * np.einsum("ij,ij->i", free - touch.velocity, touch.normals)
-        # The push is found anew: what is not needed any more is taken away again.
-        v_new, push = dynamics.hold(x_hat, free - g * push, touch, distance, now, g)
-        distance = distance + g * np.einsum("ij,ij->i", v_new - touch.velocity, touch.normals)
-        x_new = dynamics.put_back(x_hat + g * v_new, touch, distance, now)
+        v_new, impulse = dynamics.hold(x_hat, free, meeting.touch, meeting.distance, now, g)
+        x_new = dynamics.put_back(x_hat + g * v_new, meeting.touch, meeting.distance_after(v_new - v, g), now)
         # A stopped particle has a kink in its path. It looks back on one straightened by that much, or it would bounce.
         kink = x_new - (x_hat + g * free)
+        kink[pressing > 0] = meeting.touch.normals[pressing > 0]
         before = (
             x + _along(kink, x_new - dt * v_new - x, _STRAIGHTENED),
             v + _along(kink, v_new - v, _STRAIGHTENED / g),
         )
-        return HairState(x_new, v_new, state.directions, state.time + dt, before, push)
+        pressing = np.where(pressing > 0, pressing, model.mass * impulse / g)
+        return HairState(x_new, v_new, state.directions, state.time + dt, before, pressing)
 
     def _earlier(
         self, state: HairState, now: Circumstances, outer: Floats, rest_turn: Floats, dt: float

@@ -62,7 +62,7 @@ class HairState:
     """What moves: positions [m], velocities [m/s] and unit hair directions in the head frame, (n, 3), at a time [s].
 
     before: positions and velocities one step earlier, for solvers that look back; None after a fresh start.
-    push: what the body did to hair that lies on it [m/s^2], (n, 3), with ``before``.
+    pressing: with what force the body holds hair that lies on it [N], (n,), with ``before``.
     """
 
     positions: Floats
@@ -70,7 +70,7 @@ class HairState:
     directions: Floats
     time: float = 0.0
     before: tuple[Floats, Floats] | None = None
-    push: Floats | None = None
+    pressing: Floats | None = None
 
     @classmethod
     def at_rest(cls, model: HairModel) -> HairState:

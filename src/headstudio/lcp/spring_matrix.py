@@ -2,6 +2,9 @@
 
 The pattern of the links never changes, so where each number goes is worked out once. A link adds the same symmetric
 3 x 3 block, six different numbers, to the diagonal at both of its ends and takes it from the two places that couple them.
+
+Particles that are held do not move along a direction of their own. The preconditioner sees to that: its block is what the
+inverted block tends to as that direction becomes infinitely stiff, so conjugate gradients never go there.
 """
 
 from __future__ import annotations
@@ -9,27 +12,27 @@ from __future__ import annotations
 import numpy as np
 from scipy import sparse
 
-from ..head.mesh import Floats
+from ..head.mesh import Floats, Ints
 from .model import HairModel
 from .springs import LinkState, Load, Springs
 
 _MOST_ITERATIONS = 60
 # The places of a symmetric 3 x 3 block, row by row, among its six numbers xx, xy, xz, yy, yz, zz.
 _SIX_OF_NINE = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
+_NINE_TO_SIX = np.array([0, 1, 2, 4, 5, 8])
 
 
 class SpringMatrix:
     """M + g D + g^2 K of the free particles, and conjugate gradients on it."""
 
-    def __init__(self, model: HairModel, springs: Springs, tolerance: float) -> None:
-        """tolerance: of the residual, as a part of the right side."""
-        self.tolerance = tolerance
-        self.iterations = 0
+    def __init__(self, model: HairModel, springs: Springs) -> None:
+        self.iterations = 0  # of conjugate gradients, in all
         self._springs = springs
         self._free = np.flatnonzero(~model.fixed)
         count, links = len(self._free), len(model.links)
         place = np.full(model.count, -1)
         place[self._free] = np.arange(count)
+        self._place = place
         rootward, tipward = place[model.links].T
         inner = np.flatnonzero((rootward >= 0) & (tipward >= 0))
         # Every block by the six numbers it is made of: those of the links first, then those of the diagonal.
@@ -43,6 +46,8 @@ class SpringMatrix:
         numbered = sparse.csr_array((np.arange(len(source)), (entry_rows, entry_columns)), shape=(3 * count, 3 * count))
         numbered.sort_indices()
         self._source = source[numbered.data]
+        where = np.argsort(numbered.data)
+        self._where_diagonal = where[: 9 * count].reshape(count, 9)
         self._matrix = sparse.csr_array(
             (np.zeros(len(source)), numbered.indices.astype(np.int32), numbered.indptr.astype(np.int32)),
             shape=numbered.shape,
@@ -69,10 +74,28 @@ class SpringMatrix:
         of_diagonal[[0, 3, 5]] += inertia[self._free]
         of_links *= -1.0
         np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
-        _invert_symmetric(of_diagonal, self._inverse.data)
 
-    def solve(self, right: Floats, guess: Floats) -> Floats:
-        """Conjugate gradients from ``guess``, preconditioned with the inverted diagonal blocks; (n, 3), root particles zero."""
+    def hold(self, held: Ints, normals: Floats, drag: Floats) -> None:
+        """Hold particles where they are along a unit normal, and drag at them across it. To be called after each update.
+
+        held: their indices, (k,), none of them a root particle. normals: (k, 3). drag: [kg], (k,).
+        """
+        place, count = self._place[held], len(self._free)
+        diagonal = self._six[:, -count:].copy()
+        across = np.eye(3) - normals[:, :, None] * normals[:, None, :]
+        diagonal[:, place] += (drag[:, None, None] * across).reshape(-1, 9)[:, _NINE_TO_SIX].T
+        self._matrix.data[self._where_diagonal] = diagonal.T[:, _SIX_OF_NINE]
+        inverse = self._inverse.data
+        _invert_symmetric(diagonal, inverse)
+        stiff = np.einsum("kij,kj->ki", inverse[place], normals)
+        inverse[place] -= stiff[:, :, None] * (stiff / np.einsum("ij,ij->i", stiff, normals)[:, None])[:, None, :]
+
+    def solve(self, right: Floats, guess: Floats, tolerance: float) -> tuple[Floats, Floats]:
+        """Preconditioned conjugate gradients from ``guess``: the solution and what it leaves of ``right``, (n, 3) each.
+
+        Both are zero at root particles. What is left at held particles along their normal is what holds them, with the
+        sign turned round. tolerance: of the rest, as a part of the right side.
+        """
         matrix, inverse = self._matrix, self._inverse
         wanted = right[self._free].ravel()
         solution = guess[self._free].ravel()
@@ -82,10 +105,10 @@ class SpringMatrix:
         rho = residual @ z
         if not np.isfinite(rho):
             # A force that is no number must not pass for one that is solved.
-            return np.full_like(right, np.nan)
-        goal = self.tolerance**2 * (wanted @ (inverse @ wanted))
-        self.iterations = 0
-        while rho > goal and self.iterations < _MOST_ITERATIONS:
+            return np.full_like(right, np.nan), np.full_like(right, np.nan)
+        goal = tolerance**2 * (wanted @ (inverse @ wanted))
+        taken = 0
+        while rho > goal and taken < _MOST_ITERATIONS:
             image = matrix @ direction
             step = rho / (direction @ image)
             solution += step * direction
@@ -94,10 +117,14 @@ class SpringMatrix:
             rho, last = residual @ z, rho
             direction *= rho / last
             direction += z
-            self.iterations += 1
-        result = np.zeros_like(right)
-        result[self._free] = solution.reshape(-1, 3)
-        return result
+            taken += 1
+        self.iterations += taken
+        return self._at_all(solution), self._at_all(residual)
+
+    def _at_all(self, of_free: Floats) -> Floats:
+        at_all = np.zeros((len(self._place), 3))
+        at_all[self._free] = of_free.reshape(-1, 3)
+        return at_all
 
 
 def _invert_symmetric(six: Floats, out: Floats) -> None:
