@@ -55,6 +55,8 @@ class SpringMatrix:
         self._six = np.zeros((6, links + count))
         one_each = np.arange(count + 1)
         self._inverse = sparse.bsr_array((np.zeros((count, 3, 3)), one_each[:-1], one_each), shape=numbered.shape)
+        self._inverse_of_free = np.zeros((count, 3, 3))
+        self._held = np.zeros(0, dtype=np.int64)
 
     def update(self, links: LinkState, load: Load, g: float, inertia: Floats) -> None:
         """Fill the matrix for the links at one instant. inertia: what stands on the diagonal besides them [kg], (n,)."""
@@ -74,21 +76,28 @@ class SpringMatrix:
         of_diagonal[[0, 3, 5]] += inertia[self._free]
         of_links *= -1.0
         np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
+        _invert_symmetric(of_diagonal, self._inverse_of_free)
+        self._inverse.data[:] = self._inverse_of_free
+        self._held = np.zeros(0, dtype=np.int64)
 
     def hold(self, held: Ints, normals: Floats, drag: Floats) -> None:
         """Hold particles where they are along a unit normal, and drag at them across it. To be called after each update.
 
         held: their indices, (k,), none of them a root particle. normals: (k, 3). drag: [kg], (k,).
         """
-        place, count = self._place[held], len(self._free)
-        diagonal = self._six[:, -count:].copy()
+        diagonal, data, inverse = self._six[:, -len(self._free) :], self._matrix.data, self._inverse.data
+        # What the last call held is let go.
+        data[self._where_diagonal[self._held]] = diagonal[:, self._held].T[:, _SIX_OF_NINE]
+        inverse[self._held] = self._inverse_of_free[self._held]
+        self._held = place = self._place[held]
         across = np.eye(3) - normals[:, :, None] * normals[:, None, :]
-        diagonal[:, place] += (drag[:, None, None] * across).reshape(-1, 9)[:, _NINE_TO_SIX].T
-        self._matrix.data[self._where_diagonal] = diagonal.T[:, _SIX_OF_NINE]
-        inverse = self._inverse.data
-        _invert_symmetric(diagonal, inverse)
-        stiff = np.einsum("kij,kj->ki", inverse[place], normals)
-        inverse[place] -= stiff[:, :, None] * (stiff / np.einsum("ij,ij->i", stiff, normals)[:, None])[:, None, :]
+        dragged = diagonal[:, place] + (drag[:, None, None] * across).reshape(-1, 9)[:, _NINE_TO_SIX].T
+        data[self._where_diagonal[place]] = dragged.T[:, _SIX_OF_NINE]
+        blocks = np.empty((len(place), 3, 3))
+        _invert_symmetric(dragged, blocks)
+        stiff = np.einsum("kij,kj->ki", blocks, normals)
+        blocks -= stiff[:, :, None] * (stiff / np.einsum("ij,ij->i", stiff, normals)[:, None])[:, None, :]
+        inverse[place] = blocks
 
     def solve(self, right: Floats, guess: Floats, tolerance: float) -> tuple[Floats, Floats]:
         """Preconditioned conjugate gradients from ``guess``: the solution and what it leaves of ``right``, (n, 3) each.
