@@ -26,11 +26,11 @@ from .model import HairState
 from .resting import Meeting, solve_at_body
 from .spring_matrix import SpringMatrix
 
-# A step has four parts for links of 3 cm, and more the shorter they are: of what a head's shake does in a part, no link
+# A step has three parts for links of 3 cm, and more the shorter they are: of what a head's shake does in a part, no link
 # turns far. And more, for accuracy, as long as few particles leave the time for it.
-_FEWEST_PARTS, _MOST_PARTS = 4, 6
-_PART_LENGTH = 0.12  # [m]
-_PARTICLES_IN_TIME = 8000  # particles times parts that keep up with real time
+_FEWEST_PARTS, _MOST_PARTS = 3, 6
+_PART_LENGTH = 0.09  # [m]
+_PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
 _STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
 _TOLERANCE = 2e-2
 
