@@ -281,6 +281,19 @@ def test_what_a_patch_does_not_cover_does_not_count():
         compare(flat, lifted(patch, 0.1))
 
 
+def test_skin_behind_what_a_scan_shows_does_not_count():
+    flat, behind = sheet(), lifted(sheet(), -0.008)
+    folded = TriangleMesh(
+        np.concatenate([flat.vertices, behind.vertices]),
+        np.concatenate([flat.faces, behind.faces + len(flat.vertices)]),
+    )
+    scan = lifted(sheet(cells=37, seed=4), 0.001)
+    assert compare(folded, scan).distances().largest == pytest.approx(1e-3)
+    # A deep groove that the skin lacks does: nothing else is near it.
+    deep = lifted(scan, -0.006)
+    assert compare(flat, deep).distances().mean == pytest.approx(5e-3)
+
+
 def test_figures_of_distances():
     found = Distances.of(np.array([3.0, -4.0]), np.array([3.0, 1.0]))
     assert (found.mean, found.rms, found.largest, found.count) == (3.25, pytest.approx(np.sqrt(10.75)), 4.0, 2)

@@ -18,6 +18,8 @@ from .alignment import ScanError
 
 # Farther away than this nothing is the same skin [m]; its normals agree to this cosine.
 _REACH, _FACING = 0.015, 0.3
+# Where the other mesh has skin of this one so many times as near, and this much nearer still [m], that is what it shows.
+_MUCH, _NEARER = 4.0, 3e-3
 # What lies this near to a place where the scan departs from the smooth skin belongs to its wrinkles [m].
 AROUND = 0.008
 
@@ -66,8 +68,9 @@ class Comparison:
 def compare(skin: TriangleMesh, scan: TriangleMesh, part: np.ndarray | None = None) -> Comparison:
     """Compare a skin, n vertices, with a scan in its frame [m]. part: the vertices of the skin that count, (n,).
 
-    Places beside the border of the other mesh do not count: nobody knows how it goes on there. Raises ScanError when no
-    place of one lies on the other.
+    Places beside the border of the other mesh do not count: nobody knows how it goes on there. Nor do places behind it,
+    as the inside of a lid beside a scan that ends at its edge: what the other mesh has there is skin that lies much
+    nearer to it. Raises ScanError when no place of one lies on the other.
     """
     part = np.ones(len(skin.vertices), dtype=bool) if part is None else part
     vertices, to_scan, _ = _one_way(skin, scan, np.flatnonzero(part))
@@ -108,6 +111,8 @@ def _one_way(mesh: TriangleMesh, other: TriangleMesh, vertices: Ints) -> tuple[I
     corners = other.faces[found.faces]
     # On the border a foot has weight on border vertices alone.
     at_end = (open_end[corners] | (found.weights < 1e-9)).all(axis=1)
-    kept = facing & ~at_end & (away < _REACH)
+    back = Locator(mesh.vertices, mesh.faces).nearest(foot)[1]
+    behind = away > _NEARER + _MUCH * back
+    kept = facing & ~at_end & ~behind & (away < _REACH)
     side = np.where(np.einsum("kd,kd->k", foot - points, normals) >= 0, 1.0, -1.0)
     return vertices[kept], (side * away)[kept], found.faces[kept]
