@@ -6,18 +6,33 @@ uniform sampler2D far_counts;   // up to depths 4 to 7; the last holds all there
 uniform vec4 near_depths;       // behind the first hair, in the light's box
 uniform vec4 far_depths;
 
+// At one texel, which has a first hair of its own; z in units of the box, rates: one over what layers are deep.
+float crossed_at(ivec2 texel, float z, float own, vec4 near_rates, vec4 far_rates) {
+    float depth = z - texelFetch(front, texel, 0).r;
+    vec4 near = texelFetch(near_counts, texel, 0), far = texelFetch(far_counts, texel, 0);
+    float all_near = near.w;
+    vec4 near_part = clamp(1.0 + (depth - near_depths) * near_rates, 0.0, 1.0);
+    vec4 far_part = clamp(1.0 + (depth - far_depths) * far_rates, 0.0, 1.0);
+    near -= vec4(0.0, near.xyz) + own * vec4(greaterThan(near_part * (1.0 - near_part), vec4(0.0)));
+    far -= vec4(all_near, far.xyz) + own * vec4(greaterThan(far_part * (1.0 - far_part), vec4(0.0)));
+    return dot(max(near, 0.0), near_part) + dot(max(far, 0.0), far_part);
+}
+
 // at: in the light's box, 0 to 1. own: what a strand at this very place has added to the count itself.
 float hair_crossed(vec3 at, float own) {
     if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 0.0;
-    float depth = at.z - textureLod(front, at.xy, 0.0).r;
-    vec4 a = textureLod(near_counts, at.xy, 0.0), b = textureLod(far_counts, at.xy, 0.0);
-    float counts[9] = float[9](0.0, a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
-    float depths[9] = float[9](0.0, near_depths.x, near_depths.y, near_depths.z, near_depths.w,
-                               far_depths.x, far_depths.y, far_depths.z, far_depths.w);
+    vec4 near_rates = 1.0 / (near_depths - vec4(0.0, near_depths.xyz));
+    vec4 far_rates = 1.0 / (far_depths - vec4(near_depths.w, far_depths.xyz));
+    ivec2 last = textureSize(front, 0) - 1;
+    vec2 place = at.xy * vec2(last + 1) - 0.5;
+    ivec2 low = clamp(ivec2(floor(place)), ivec2(0), last), high = min(low + 1, last);
+    vec2 part = clamp(place - vec2(low), 0.0, 1.0);
     float crossed = 0.0;
-    for (int k = 0; k < 8; ++k) {
-        float part = clamp((depth - depths[k]) / (depths[k + 1] - depths[k]), 0.0, 1.0);
-        crossed += max(counts[k + 1] - counts[k] - (part > 0.0 && part < 1.0 ? own : 0.0), 0.0) * part;
+    for (int k = 0; k < 4; ++k) {
+        bvec2 upper = bvec2(k % 2 == 1, k > 1);
+        vec2 share = mix(1.0 - part, part, upper);
+        ivec2 texel = ivec2(upper.x ? high.x : low.x, upper.y ? high.y : low.y);
+        crossed += share.x * share.y * crossed_at(texel, at.z, own, near_rates, far_rates);
     }
     return crossed;
 }

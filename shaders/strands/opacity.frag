@@ -4,12 +4,12 @@ uniform sampler2D front;
 uniform vec4 near_depths;
 uniform vec4 far_depths;
 in float v_cover;
-in vec3 v_at;
+in float v_depth;
 layout(location = 0) out vec4 near_counts;
 layout(location = 1) out vec4 far_counts;
 
 void main() {
-    vec4 depth = vec4(v_at.z - textureLod(front, v_at.xy, 0.0).r);
+    vec4 depth = vec4(v_depth - texelFetch(front, ivec2(gl_FragCoord.xy), 0).r);
     near_counts = v_cover * step(depth, near_depths);
     far_counts = v_cover * step(depth, vec4(far_depths.xyz, 2.0));
 }

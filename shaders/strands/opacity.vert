@@ -5,9 +5,8 @@ uniform mat4 map_from_head;
 uniform float texels_per_metre;  // of the map drawn into
 uniform float size;              // texels a side
 uniform float widening;
-uniform ivec3 tile;               // column and row in the texture, of so many a side
 out float v_cover;
-out vec3 v_at;
+out float v_depth;
 
 void main() {
     ivec2 texel = texel_of(gl_VertexID / 2);
@@ -20,6 +19,5 @@ void main() {
     float drawn = max(half_width, 0.5);
     v_cover = half_width / drawn;
     gl_Position = vec4(place.xy + across * (side * drawn * 2.0 / size), place.zw);
-    v_at = gl_Position.xyz * 0.5 + 0.5;
-    v_at.xy = (v_at.xy + vec2(tile.xy)) / float(tile.z);
+    v_depth = gl_Position.z * 0.5 + 0.5;
 }

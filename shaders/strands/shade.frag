@@ -21,8 +21,6 @@ out vec4 radiance_;
 
 // Strands within this distance [m] send light back.
 const float behind_depth = 0.05;
-// Of its own texel's count, what a strand thinner than a texel meets again when it reads between texels, in the mean.
-const float own_part = 0.75;
 const float pi = 3.14159265;
 
 vec3 absorption_at(ivec2 texel) {
@@ -34,6 +32,11 @@ vec3 absorption_at(ivec2 texel) {
 float azimuth_between(vec3 along, vec3 a, vec3 b) {
     vec3 u = a - along * dot(a, along), v = b - along * dot(b, along);
     return acos(clamp(dot(u, v) / max(length(u) * length(v), 1e-6), -1.0, 1.0));
+}
+
+// Of its own count, what a strand that is so many texels wide meets again when it reads between them, in the mean.
+float own_count(float texels) {
+    return texels < 1.0 ? 0.75 * texels : texels < 2.0 ? texels - 0.25 * texels * texels : 1.0;
 }
 
 // Strands one behind the other as a pile of plates (Stokes 1862), which pass on `forward` and send `back`: what a pile
@@ -69,7 +72,7 @@ void main() {
 
     vec3 at = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
     float texels = 2.0 * point.w * light_widening * float(textureSize(near_counts, 0).x) / box_size;
-    float own = texel.x + texel.y * point_row < light_points ? own_part * min(texels, 1.0) : 0.0;
+    float own = texel.x + texel.y * point_row < light_points ? own_count(texels) : 0.0;
     float above = hair_crossed(at, own);
     float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - own - above, 0.0);
     float crossed = shadow.x < 0.5 ? 0.0 : above;

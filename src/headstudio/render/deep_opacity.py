@@ -1,8 +1,9 @@
 """Deep opacity maps: how much hair light has met on its way, in layers that follow the first hair it meets.
 
-Yuksel, Keyser 2008, "Deep opacity maps". Strands thinner than a texel are drawn a texel wide with less opacity. Counts
-of strands are added up, and not opacities multiplied, since light-coloured hair passes light on from strand to strand:
-``exp(-count)`` is what comes through between the strands.
+Yuksel, Keyser 2008, "Deep opacity maps". The first hair is known for every texel: what is seen of dense hair are its first
+strands, and a first hair for several texels would leave most of them in the shadow of their own layer. Strands thinner
+than a texel are drawn a texel wide with less opacity. Counts of strands are added up, and not opacities multiplied, since
+light-coloured hair passes light on from strand to strand: ``exp(-count)`` is what comes through between the strands.
 """
 
 from __future__ import annotations
@@ -12,14 +13,11 @@ import numpy as np
 
 from ..head.mesh import Floats
 from .context import load_program, set_uniforms
-from .screen import ScreenPasses
 from .strand_points import StrandTextures
 from .view import View
 
 LAYER_DEPTHS = np.array([0.0015, 0.004, 0.008, 0.015, 0.027, 0.048, 0.085, 0.15])
 """Behind the first hair [m]; the last layer holds all that is still deeper, too."""
-
-_FRONT_REDUCTION = 4
 
 
 class OpacityPrograms:
@@ -28,7 +26,6 @@ class OpacityPrograms:
     def __init__(self, context: moderngl.Context) -> None:
         self.depth = load_program(context, "strands/opacity.vert", "body/depth.frag")
         self.layers = load_program(context, "strands/opacity.vert", "strands/opacity.frag")
-        self.front = ScreenPasses(context, "front", room="strands")
 
 
 class LightStrips:
@@ -60,17 +57,13 @@ class DeepOpacityMap:
         self.tiles = tiles
         self._context = context
         self._programs = programs
-        self._coarse = max(size // _FRONT_REDUCTION, 1)
-        coarse = (self._coarse * tiles,) * 2
-        self._nearest = context.depth_texture(coarse)
-        self._nearest.compare_func = ""
-        self._nearest.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self._nearest_target = context.framebuffer([], self._nearest)
-        self.front = _smooth(context.texture(coarse, 1, dtype="f4"))
-        self._front_target = context.framebuffer([self.front])
-        self.near_counts, self.far_counts = (
-            _smooth(context.texture((size * tiles,) * 2, 4, dtype="f2")) for _ in range(2)
-        )
+        texels = (size * tiles,) * 2
+        self.front = context.depth_texture(texels)
+        self.front.compare_func = ""
+        self._front_target = context.framebuffer([], self.front)
+        self.near_counts, self.far_counts = (context.texture(texels, 4, dtype="f2") for _ in range(2))
+        for texture in (self.front, self.near_counts, self.far_counts):
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._counts_target = context.framebuffer([self.near_counts, self.far_counts])
         self._depths: dict[str, object] = {}
 
@@ -83,22 +76,19 @@ class DeepOpacityMap:
         box = lights[0].far
         depths = LAYER_DEPTHS / box
         self._depths = {"near_depths": tuple(depths[:4]), "far_depths": tuple(depths[4:])}
-        with self._context.scope(self._nearest_target, moderngl.DEPTH_TEST):
-            self._nearest_target.clear(depth=1.0)
+        with self._context.scope(self._front_target, moderngl.DEPTH_TEST):
+            self._front_target.clear(depth=1.0)
             for tile, light in enumerate(lights):
-                self._look_at(self._nearest_target, tile, self._coarse)
-                self._draw(strips, False, indices, widening, light.clip_from_world @ pose, self._coarse, box, tile)
-            _whole(self._nearest_target)
-        with self._context.scope(self._front_target, moderngl.NOTHING):
-            self._nearest.use(2)
-            self._programs.front.draw("front", nearest=2)
+                self._look_at(self._front_target, tile)
+                self._draw(strips, False, indices, widening, light.clip_from_world @ pose, box)
+            _whole(self._front_target)
         with self._context.scope(self._counts_target, moderngl.BLEND):
             self._context.blend_func = moderngl.ONE, moderngl.ONE
             self._counts_target.clear()
             self.front.use(2)
             for tile, light in enumerate(lights):
-                self._look_at(self._counts_target, tile, self.size)
-                self._draw(strips, True, indices, widening, light.clip_from_world @ pose, self.size, box, tile)
+                self._look_at(self._counts_target, tile)
+                self._draw(strips, True, indices, widening, light.clip_from_world @ pose, box)
             _whole(self._counts_target)
 
     def bind(self, first_unit: int) -> dict[str, object]:
@@ -107,33 +97,18 @@ class DeepOpacityMap:
             texture.use(first_unit + k)
         return {"front": first_unit, "near_counts": first_unit + 1, "far_counts": first_unit + 2, **self._depths}
 
-    def _look_at(self, target: moderngl.Framebuffer, tile: int, size: int) -> None:
-        corner = (tile % self.tiles * size, tile // self.tiles * size)
-        target.viewport = target.scissor = (*corner, size, size)
+    def _look_at(self, target: moderngl.Framebuffer, tile: int) -> None:
+        corner = (tile % self.tiles * self.size, tile // self.tiles * self.size)
+        target.viewport = target.scissor = (*corner, self.size, self.size)
 
     def _draw(
-        self,
-        strips: LightStrips,
-        layers: bool,
-        indices: int,
-        widening: float,
-        matrix: Floats,
-        size: int,
-        box: float,
-        tile: int,
+        self, strips: LightStrips, layers: bool, indices: int, widening: float, matrix: Floats, box: float
     ) -> None:
         strips.draw(
-            layers, indices, widening=widening, map_from_head=tuple(matrix.T.ravel()), size=float(size),
-            texels_per_metre=size / box, front=2, tile=(tile % self.tiles, tile // self.tiles, self.tiles),
-            **self._depths,
+            layers, indices, widening=widening, map_from_head=tuple(matrix.T.ravel()), size=float(self.size),
+            texels_per_metre=self.size / box, front=2, **self._depths,
         )  # fmt: skip
 
 
 def _whole(target: moderngl.Framebuffer) -> None:
     target.viewport = target.scissor = (0, 0, *target.size)
-
-
-def _smooth(texture: moderngl.Texture) -> moderngl.Texture:
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
