@@ -11,7 +11,7 @@ is solved by one Newton step from the present velocities, with the forces that t
 
 K and D being the stiffness and damping of the springs, kappa that of bending, c air friction. The matrix is symmetric
 and positive definite (compressed links count only along themselves), its pattern never changes, and conjugate gradients
-solve it.
+solve it, with hair that lies on the body held there (resting.py).
 """
 
 from __future__ import annotations
@@ -47,11 +47,6 @@ class ImplicitSolver:
         self.parts = parts or max(_FEWEST_PARTS, round(_PART_LENGTH / length), affordable)
         self.tolerance = tolerance
         self._matrix = SpringMatrix(model, dynamics.springs)
-
-    @property
-    def iterations(self) -> int:
-        """How many iterations of conjugate gradients all steps have taken."""
-        return self._matrix.iterations
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.

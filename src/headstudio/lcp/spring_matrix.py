@@ -26,7 +26,6 @@ class SpringMatrix:
     """M + g D + g^2 K of the free particles, and conjugate gradients on it."""
 
     def __init__(self, model: HairModel, springs: Springs) -> None:
-        self.iterations = 0  # of conjugate gradients, in all
         self._springs = springs
         self._free = np.flatnonzero(~model.fixed)
         count, links = len(self._free), len(model.links)
@@ -127,7 +126,6 @@ class SpringMatrix:
             direction *= rho / last
             direction += z
             taken += 1
-        self.iterations += taken
         return self._at_all(solution), self._at_all(residual)
 
     def _at_all(self, of_free: Floats) -> Floats:
