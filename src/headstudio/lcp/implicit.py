@@ -101,12 +101,13 @@ class ImplicitSolver:
         x_new = dynamics.put_back(x_hat + g * v_new, meeting.touch, meeting.distance_after(v_new - v, g), now)
         # A stopped particle has a kink in its path. It looks back on one straightened by that much, or it would bounce.
         kink = x_new - (x_hat + g * free)
-        kink[pressing > 0] = meeting.touch.normals[pressing > 0]
+        held = pressing > 0
+        kink[held] = meeting.touch.normals[held]
         before = (
             x + _along(kink, x_new - dt * v_new - x, _STRAIGHTENED),
             v + _along(kink, v_new - v, _STRAIGHTENED / g),
         )
-        pressing = np.where(pressing > 0, pressing, model.mass * impulse / g)
+        pressing = np.where(held, pressing, model.mass * impulse / g)
         return HairState(x_new, v_new, state.directions, state.time + dt, before, pressing)
 
     def _earlier(

@@ -80,13 +80,13 @@ def solve_at_body(
         which = np.flatnonzero(held)
         normal = normals[which]
         slip = meeting.slip[which] - meeting.leaving[which, None] * normal
-        sliding = slip + across(change[which], normal)
+        sliding = slip + _across(change[which], normal)
         speed = np.sqrt(np.einsum("ij,ij->i", sliding, sliding))
         drag = g * friction * pressing[which] / np.maximum(speed, _STICKING)
         matrix.hold(which, normal, drag)
         dragged, start = right.copy(), change.copy()
         dragged[which] -= drag[:, None] * slip
-        start[which] = across(start[which], normal) + (meeting.least - meeting.leaving)[which, None] * normal
+        start[which] = _across(start[which], normal) + (meeting.least - meeting.leaving)[which, None] * normal
         change, left = matrix.solve(dragged, start, rest)
         force = -np.einsum("ij,ij->i", left, normals) / g
         held = np.where(held, force > 0, ~fixed & (meeting.leaving + _along(change, normals) < meeting.least - _SLACK))
@@ -95,7 +95,7 @@ def solve_at_body(
     return change, pressing
 
 
-def across(vectors: Floats, normals: Floats) -> Floats:
+def _across(vectors: Floats, normals: Floats) -> Floats:
     """The parts of ``vectors`` across unit ``normals``, (n, 3) each."""
     return vectors - _along(vectors, normals)[:, None] * normals
 

@@ -92,8 +92,9 @@ def around(points: Floats, wrinkled: Floats) -> np.ndarray:
 
 def _areas(mesh: TriangleMesh) -> Floats:
     """A third of the triangles around every vertex [m^2], (n,)."""
-    areas: Floats = np.zeros(len(mesh.vertices))
-    np.add.at(areas, mesh.faces, mesh.face_areas[:, None] / 3.0)
+    thirds = np.repeat(mesh.face_areas / 3.0, 3)
+    areas = np.zeros(len(mesh.vertices))
+    areas += np.bincount(mesh.faces.ravel(), thirds, len(mesh.vertices))
     return areas
 
 
