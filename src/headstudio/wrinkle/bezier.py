@@ -219,8 +219,11 @@ def _least_squares(
     # A little pull toward the ends keeps control points near when few points decide them.
     solution = np.linalg.solve(normal + _PULL**2 * np.eye(len(normal)), wanted)
     split = len(free[0])
-    second, third = solution[:split] @ free[0], solution[split:] @ free[1]
-    # A tangent that points backward would make a loop.
+    second, third = (
+        side * min(1.0, length / max(float(np.linalg.norm(side)), np.finfo(float).tiny))
+        for side in (solution[:split] @ free[0], solution[split:] @ free[1])
+    )
+    # Few points could ask for handles longer than the stroke; a tangent that points backward would make a loop.
     if first is not None and second @ first <= 0:
         second = first * length / 3
     if last is not None and third @ last >= 0:

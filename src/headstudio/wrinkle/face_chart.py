@@ -2,7 +2,8 @@
 
 The chart is the front of an average head rolled off a cylinder about the skull, which bends back into the neck: x to the
 person's left and y upward [m], both zero at the nasion. A smooth map (polyharmonic splines) that takes the chart's
-landmarks to those of a head takes a furrow there.
+landmarks to those of a head takes a furrow there. What a head hides under its jaw, nose and lips has its place, too: the
+rolled face is unfolded, so that chart and skin are one to one.
 """
 
 from __future__ import annotations
@@ -14,10 +15,12 @@ from scipy.interpolate import RBFInterpolator
 
 from ..head.head import Head
 from ..head.locate import Locator
-from ..head.mesh import Floats
+from ..head.mesh import Floats, Ints
 from .bezier import BezierChain, fit_stroke
 from .furrow import Furrow
+from .one_to_one import signed_areas
 from .skin_layout import SkinLayout
+from .unfolding import unfolded
 
 # Landmarks of the chart [m], from MakeHuman's adults and the mannequin.
 _MIDDLE = {
@@ -36,9 +39,11 @@ _LEFT = {
 _NECK_LEVEL, _NECK_RADIUS = 0.1, 0.22
 # A furrow is carried over by samples this close [m], and fitted again to within this [m].
 _SPACING = 5e-4
-_TOLERANCE = 5e-5
-# Rays that look for the skin start this far from the axis of the skull [m].
-_OUTSIDE = 0.5
+_TOLERANCE, _NARROWEST = 5e-5, 0.03
+# Rays that look for what is hidden start this far from the axis of the skull [m], and count as met this far before it.
+_OUTSIDE, _BEFORE = 0.5, 2e-5
+# A point this far beside the rolled face [m] is off it.
+_BESIDE = 1e-6
 # Rounds that invert the map, and the error they are to leave [m].
 _INVERSION_ROUNDS, _INVERSION_ERROR = 60, 1e-7
 
@@ -60,21 +65,21 @@ class FaceChart:
         rolled = self._rolled(np.array([getattr(marks, name) for name in names]))
         self._to_head = RBFInterpolator(chart, rolled, kernel="cubic")
         self._to_chart = RBFInterpolator(rolled, chart, kernel="cubic")
-        self._skin = Locator(layout.part.mesh.vertices, layout.part.mesh.faces)
+        mesh = layout.part.mesh
+        self._skin = Locator(mesh.vertices, mesh.faces)
+        self._places = unfolded(mesh, self._rolled(mesh.vertices), self._hidden())
+        self._plane = Locator(self._places, mesh.faces)
 
     def on_skin(self, chart: Floats) -> Floats:
         """Points of the skin [m], (k, 3), at points of the chart [m], (k, 2); nan where the face does not reach."""
-        rolled = self._to_head(chart)
-        angle = rolled[:, 0] / self._radius
-        outward = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1)
-        starts = self._axis_at(rolled[:, 1]) + _OUTSIDE * outward
-        distance = self._skin.first_hit(starts, -outward)
-        reached = distance < _OUTSIDE
-        return np.where(reached[:, None], starts - np.where(reached, distance, 0.0)[:, None] * outward, np.nan)
+        mesh = self.layout.part.mesh
+        found, beside = self._plane.nearest(self._to_head(chart))
+        return np.where((beside < _BESIDE)[:, None], found.blend(mesh.vertices, mesh.faces), np.nan)
 
     def from_skin(self, points: Floats) -> Floats:
         """Points of the chart [m], (k, 2), for points of the skin [m], (k, 3)."""
-        rolled = self._rolled(points)
+        found, _ = self._skin.nearest(points)
+        rolled = found.blend(self._places, self.layout.part.mesh.faces)
         chart = self._to_chart(rolled)
         for _ in range(_INVERSION_ROUNDS):
             error = rolled - self._to_head(chart)
@@ -90,7 +95,12 @@ class FaceChart:
         What lies off the face is left out: the neck of a bust may end early. A furrow that comes to an eye or the mouth
         goes on behind it.
         """
-        skin = self.on_skin(_sampled(furrow.chain, 1.0))
+        places = _sampled(furrow.chain, 1.0)
+        skin = self.on_skin(places)
+        # Where the chart is narrow, little of it is much skin.
+        far = np.nan_to_num(np.linalg.norm(np.diff(skin, axis=0), axis=1))
+        if far.max(initial=0.0) > 2.0 * _SPACING:
+            skin = self.on_skin(_between(places, np.maximum(np.ceil(far / _SPACING), 1.0).astype(np.int64)))
         on_face = np.isfinite(skin[:, 0])
         if on_face.sum() < max(0.5 * len(skin), 2):
             return None
@@ -113,12 +123,28 @@ class FaceChart:
 
     def stroke_on_chart(self, furrow: Furrow, skin: Floats) -> Furrow:
         """``furrow`` along points of the skin [m], (k, 3), on the chart. Raises ValueError for less than two points."""
-        return replace(furrow, controls=_controls(self.from_skin(skin), _TOLERANCE))
+        chart = self.from_skin(skin)
+        steps, far = (np.linalg.norm(np.diff(line, axis=0), axis=1) for line in (chart, skin))
+        # Where the chart is narrow, little of it is much skin.
+        narrow = float((steps / np.maximum(far, _SPACING * 1e-3)).min(initial=1.0))
+        return replace(furrow, controls=_controls(chart, _TOLERANCE * max(narrow, _NARROWEST)))
 
     def _rolled(self, points: Floats) -> Floats:
         """Arc length around the skull and height [m], (k, 2)."""
         local = points - self._axis_at(points[:, 1])
         return np.stack([self._radius * np.arctan2(local[:, 0], local[:, 2]), points[:, 1]], axis=1)
+
+    def _hidden(self) -> np.ndarray:
+        """Which triangles show their back to a ray towards the axis, or have others in front of them, (m,)."""
+        mesh = self.layout.part.mesh
+        middle = mesh.vertices[mesh.faces].mean(axis=1)
+        rolled = self._rolled(middle)
+        angle = rolled[:, 0] / self._radius
+        outward = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1)
+        starts = self._axis_at(rolled[:, 1]) + _OUTSIDE * outward
+        away = np.einsum("ij,ij->i", starts - middle, outward)
+        behind = self._skin.first_hit(starts, -outward) < away - _BEFORE
+        return behind | (signed_areas(self._rolled(mesh.vertices)[mesh.faces]) <= 0)
 
     def _axis_at(self, levels: Floats) -> Floats:
         """Points of the axis at levels [m], (k,): between the ears, and farther back in the neck, (k, 3)."""
@@ -138,6 +164,13 @@ def _sampled(chain: BezierChain, metres: float) -> Floats:
     """Points of a chain, some half a millimetre apart, (k, 2); ``metres`` is the length of its unit."""
     hull = np.linalg.norm(np.diff(chain.controls, axis=0), axis=1).sum() * metres
     return chain.sampled(int(np.clip(hull / _SPACING / chain.count, 8, 400)))[1]
+
+
+def _between(points: Floats, counts: Ints) -> Floats:
+    """Points on a line, (k, 2), with so many steps between each two and the next, (k - 1,)."""
+    place = np.repeat(np.arange(len(counts)), counts) + np.concatenate([np.arange(n) / n for n in counts])
+    place = np.append(place, len(counts))
+    return np.stack([np.interp(place, np.arange(len(points)), points[:, k]) for k in (0, 1)], axis=1)
 
 
 def _controls(points: Floats, tolerance: float) -> tuple[tuple[float, float], ...]:
