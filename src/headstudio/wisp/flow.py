@@ -88,8 +88,10 @@ class Flow:
         self._turned[wisps] = np.eye(3)
 
     def styling_force(self, wisps: Ints) -> Floats:
-        """Phi at the ends of ``wisps``, (k, 3)."""
-        return self._force.at(self.ends[wisps]).astype(np.float64)
+        """Phi at the ends of ``wisps``, (k, 3); beside a parting, as it is well on their side of it."""
+        aside = self.outlines.aside
+        felt = self.ends[wisps] if aside is None else self.ends[wisps] + aside[wisps]
+        return self._force.at(felt).astype(np.float64)
 
     def lay(self, wisps: Ints, force: Floats, ceiling: Floats) -> None:
         """Add one segment to each of ``wisps``, (k,), under ``force``, (k, 3); it collides above ``ceiling``, (k,)."""

@@ -97,6 +97,12 @@ def _bob(u: Floats, v: Floats) -> Floats:
     return 0.5 + 0.5 * height
 
 
+def _round(u: Floats, v: Floats) -> Floats:
+    # Cut to a ball: hair that stands at the rim of the scalp would reach out over face, ears and nape.
+    rim = np.minimum(np.minimum(v, 1 - v), 0.5 - np.abs(u - 0.5))
+    return 0.42 + 0.58 * _ramp(rim, 0.0, 0.3)
+
+
 def _short_back_and_sides(u: Floats, v: Floats) -> Floats:
     top = _top(u, v, 0.42, 0.48, 0.22)
     return 0.14 + 0.16 * (1 - _ramp(np.maximum(_aside(u), v), 0.45, 0.95)) + 0.7 * top
@@ -106,6 +112,7 @@ _LENGTH: Mapping[str, Pattern] = {
     "even": _even,
     "fringe": _fringe,
     "bob": _bob,
+    "round": _round,
     "layered": lambda u, v: 0.72 + 0.28 * _ramp(v, 0.1, 0.75),
     "long back": lambda u, v: 0.1 + 0.9 * _ramp(v, 0.3, 0.65),
     "short back and sides": _short_back_and_sides,

@@ -20,6 +20,7 @@ class Outlines:
     wisp has, 1 to J, (W,); what lies beyond in the padded arrays continues the last one. frames: rotation of every
     segment, (W, J, 3, 3): its columns are two directions across and the direction along the segment, in the head frame.
     radii: deviation radius r at every joint [m], (W, J + 1). strands: how many strands each wisp stands for, (W,).
+    aside: how far from its end a wisp feels the styling force [m], (W, 3), None for nobody; see ``Parting.aside``.
     """
 
     roots: Floats
@@ -28,6 +29,7 @@ class Outlines:
     frames: Floats
     radii: Floats
     strands: NDArray[np.int64]
+    aside: Floats | None = None
 
     @property
     def directions(self) -> Floats:

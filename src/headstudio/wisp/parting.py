@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..head.mesh import Floats
+from ..head.mesh import Floats, Ints
 from ..head.scalp import Scalp
 from ..params import ParameterError
 from .settings import CurvePoints, WispSettings
@@ -24,6 +24,8 @@ _LINES: Mapping[str, CurvePoints] = {
 _SPACING = 0.001  # between the points that stand for the line [m]
 # Skin this near to the line is told apart by its side [m].
 _APART = 0.015
+# Hair that grows as far from the line as this is in no doubt about its side [m].
+_TURN = 0.02
 # A line that ends this near to the border of the square goes on so far beyond it [m].
 _BORDER, _BEYOND = 0.03, 0.02
 
@@ -65,13 +67,25 @@ class Parting:
         It keeps the two banks of the parting apart: across the line it jumps, and it is zero away from it. Who measures
         distance in these four coordinates finds no neighbours on the other bank.
         """
-        distance, index = self._tree.query(points, distance_upper_bound=_APART)
-        near = np.isfinite(distance)
-        result = np.zeros(len(points))
-        at = index[near]
-        side = np.sign(np.einsum("ij,ij->i", points[near] - self.points[at], self.leftward[at]))
-        result[near] = side * (_APART - distance[near])
-        return result
+        return self._short_of(_APART, points)[0]
+
+    def aside(self, points: Floats) -> Floats:
+        """How far aside of where it is hair that grows at ``points`` [m], (n, 3), feels a force field [m], (n, 3).
+
+        A field turns from one side of the parting to the other over some breadth, and its own parting may lie a little
+        beside the line. So hair that grows nearer to the line than that feels what hair on its bank feels at that
+        distance: it would else hang between the banks, over the face.
+        """
+        short, index = self._short_of(_TURN, points)
+        return short[:, None] * self.leftward[index]
+
+    def _short_of(self, reach: float, points: Floats) -> tuple[Floats, Ints]:
+        """By how much points, (n, 3), are nearer to the line than ``reach`` [m], (n,), negative on the right of it, and
+        next to which of its points, (n,).
+        """
+        distance, index = self._tree.query(points)
+        side = np.sign(np.einsum("ij,ij->i", points - self.points[index], self.leftward[index]))
+        return side * np.maximum(reach - distance, 0.0), index
 
     def lean(self, points: Floats, normals: Floats, flow: Floats) -> Floats:
         """Unit directions along the skin in which hair lies, (n, 3): away from the line near it, ``flow`` far from it.

@@ -44,6 +44,7 @@ def rest_outlines(
         frames=np.repeat(frames[:, None], joints, axis=1),
         radii=radii,
         strands=np.rint(settings.strands * regions.share).astype(np.int64),
+        aside=None if parting is None else parting.aside(regions.roots),
     )
     return outlines, length
 

@@ -19,6 +19,7 @@ LENGTH_MAPS = (
     "even",
     "fringe",
     "bob",
+    "round",
     "layered",
     "long back",
     "short back and sides",
