@@ -219,12 +219,17 @@ def test_landmarks_upside_down_are_refused():
         default_curves(dataclasses.replace(head, landmarks=upside_down))
 
 
-def test_a_curve_led_through_an_ear_says_what_to_do():
+def test_a_curve_led_over_an_ear_finds_its_way_around_the_fold():
     surface = plate()
     # A fin as sharp as the rim of an ear, across the way of the curve.
     vertices = surface.mesh.vertices.copy()
     fin = np.isclose(vertices[:, 0], 0.5) & (np.abs(vertices[:, 1] - 0.5) < 0.4)
     vertices[fin] += [-0.3, 0, 0.02]
     folded = ShadedMesh(TriangleMesh(vertices, surface.mesh.faces), surface.normals)
-    with pytest.raises(HeadError, match="gets lost in a fold"):
-        cut_patch(folded, polygon_sides(folded, SQUARES["through triangles"]))
+    corners = SQUARES["through triangles"]
+    patch = cut_patch(folded, polygon_sides(folded, corners))
+    for side, start, end in zip(patch.sides, corners, np.roll(corners, -1, axis=0)):
+        line = patch.disc.mesh.vertices[side]
+        np.testing.assert_allclose(line[[0, -1], :2], [start, end], atol=0.01)
+        # Across the fin the way goes out and back by its depth; it does not wander.
+        assert np.linalg.norm(np.diff(line, axis=0), axis=1).sum() < np.linalg.norm(np.subtract(end, start)) + 3 * 0.3

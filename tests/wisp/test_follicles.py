@@ -122,6 +122,20 @@ def test_hair_at_the_end_of_a_parting_falls_to_its_sides_and_not_over_the_face(s
     assert np.median(np.abs(frames[near, 0, 2])) > 0.9
 
 
+def test_hair_near_a_parting_feels_the_field_of_its_own_bank(scalp):
+    settings = WispSettings(parting="left", wisps=1500)
+    parting = Parting.of(scalp, settings)
+    roots = spread_wisps(scalp, EVEN, 1500, parting, 1).roots
+    distance, at = cKDTree(parting.points).query(roots)
+    side = np.einsum("ij,ij->i", roots - parting.points[at], parting.leftward[at])
+    aside = parting.aside(roots)
+    felt = side + np.einsum("ij,ij->i", aside, parting.leftward[at])
+    near = (distance < 0.02) & (at > 10) & (at < len(parting.points) - 20)
+    np.testing.assert_allclose(np.abs(felt[near]), 0.02, atol=0.002)
+    assert np.all(felt[near] * side[near] > 0)
+    assert np.all(aside[distance > 0.02] == 0)
+
+
 def test_standing_hair_stands_up(scalp):
     settings = WispSettings(protrusion_map="standing", wisps=100)
     regions = spread_wisps(scalp, EVEN, 100, None, 1)

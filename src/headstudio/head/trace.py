@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from heapq import heappop, heappush
 
 import numpy as np
 
@@ -64,9 +65,10 @@ def _insert(mesh: SplittableMesh, face: Sequence[int], weights: Sequence[float])
 def trace_loop(mesh: SplittableMesh, stops: Sequence[int], corners: Sequence[int]) -> list[int]:
     """Lay the closed curve through the vertices ``stops`` along edges of the mesh: its vertices in order.
 
-    Between two stops the curve is the cut of the surface with the plane through both that stands upright on it. It
-    keeps to ``corners``, and may leave out another stop that hangs on it by one edge. Raises HeadError when it meets
-    itself or the border of the mesh.
+    Between two stops the curve is the cut of the surface with the plane through both that stands upright on it. In a
+    fold of the skin that plane may lead nowhere: there the curve takes the shortest way along edges. It keeps to
+    ``corners``, and may leave out another stop that hangs on it by one edge. Raises HeadError when it meets itself or
+    the border of the mesh.
     """
     loop = [stops[0]]
     before = {stops[0]: -1}
@@ -74,23 +76,54 @@ def trace_loop(mesh: SplittableMesh, stops: Sequence[int], corners: Sequence[int
     for target in [*stops[1:], stops[0]]:
         if target in before and target != stops[0]:
             continue
+        given_up: set[int] = set()
         steps_left = len(mesh.opposite)
-        while loop[-1] != target and steps_left:
+        while loop[-1] != target:
             steps_left -= 1
             may_turn_back = loop[-1] not in kept
             vertex = _step(mesh, loop, target, before, may_turn_back)
             if may_turn_back and vertex == loop[-2]:
+                given_up.add(loop[-1])
                 del before[loop.pop()]
+            elif vertex == target == stops[0]:
+                return loop
+            elif vertex in given_up or steps_left < 0:
+                # The curve has been there and came back, or gets no nearer.
+                way = _shortest_way(mesh, loop[-1], target, before)
+                if target == stops[0]:
+                    return loop + way[:-1]
+                before.update(zip(way, [loop[-1], *way]))
+                loop += way
             elif vertex not in before:
                 before[vertex] = loop[-1]
                 loop.append(vertex)
-            elif vertex == target == stops[0]:
-                return loop
             else:
                 raise HeadError(_CROSSING)
-        if not steps_left:
-            raise HeadError(_LOST)
     return loop
+
+
+def _shortest_way(mesh: SplittableMesh, vertex: int, target: int, before: Mapping[int, int]) -> list[int]:
+    """The vertices after ``vertex`` on the shortest way along edges to ``target``, which meets nothing in ``before``. Raises
+    HeadError when there is none.
+    """
+    reached = {vertex: vertex}
+    edge = [(0.0, vertex, vertex)]
+    while edge:
+        length, here, came_from = heappop(edge)
+        if here != vertex and here in reached:
+            continue
+        reached[here] = came_from
+        if here == target:
+            way = [target]
+            while reached[way[0]] != vertex:
+                way.insert(0, reached[way[0]])
+            return way
+        around = {*mesh.opposite[here], *mesh.opposite[here].values()}
+        for there in around:
+            if there not in reached and (there not in before or there == target):
+                step = float(np.linalg.norm(mesh.positions[there] - mesh.positions[here]))
+                heappush(edge, (length + step, there, here))
+    raise HeadError(_LOST)
 
 
 def _step(

@@ -13,6 +13,7 @@ import numpy as np
 from ..head.mesh import Floats, Ints
 from ..head.scalp import Scalp
 from .adornment import Adornment, adorn
+from .chords import keep_chords_outside
 from .colour import strand_colours
 from .curves import LengthDistribution
 from .cutting import Blade, cut_strands
@@ -218,7 +219,8 @@ def _member_strands(
         grown = member_points(masters, cuts, own, offsets, lengths[here])
         # Last of all, since what is cut is drawn anew with straight ways between fewer places.
         cut = cut_strands(grown, own, blades)
-        points[here] = surroundings.keep_outside(cut.reshape(-1, 3), _CLEARANCE).reshape(cut.shape)
+        outside = surroundings.keep_outside(cut.reshape(-1, 3), _CLEARANCE).reshape(cut.shape)
+        points[here] = keep_chords_outside(surroundings, outside, _CLEARANCE)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(grow, range(-(-len(owner) // _BLOCK))))

@@ -23,6 +23,8 @@ _VOXEL = 0.0035  # of the signed distances [m]
 _BAND = 2.0  # how far from the skin distances are exact, in voxels
 _MARGIN = 0.02  # of the grid around the body [m]
 _FOLD = 0.014  # radius of the ball that does not get into a fold of the face [m]
+_BLUNT = 0.020  # what a ball of this radius gets into is not thin [m]
+_BESIDE = 0.013  # how far from a thin part is still near: as far as points of a strand are apart [m]
 _REACH = 0.32  # how far hair may stand off the body or hang below the bust [m]
 
 
@@ -71,7 +73,7 @@ class Surroundings:
         Points are moved in place, and returned. Millions of points are sorted out by one look at a table of places that
         may be too near; only those few are measured.
         """
-        near = np.flatnonzero(self._may_be_nearer(margin)[self._nearest_nodes(points)])
+        near = np.flatnonzero(self._may_be_nearer(margin)[self.nearest_nodes(points)])
         for _ in range(_PUSHES):
             distance, gradient = self.distance_and_gradient(points[near])
             too_near = distance < margin
@@ -82,13 +84,13 @@ class Surroundings:
             points[near] += (np.float32(margin + 1e-4) - distance)[:, None] * gradient
         return points
 
-    def _nearest_nodes(self, points: Singles) -> NDArray[np.int32]:
-        """Number of the node next to each point, (k,)."""
+    def nearest_nodes(self, points: Singles) -> NDArray[np.int32]:
+        """Number of the node of the skin's grid next to each point [m], (..., 3): (...)."""
         grid = self.skin_grid
-        number = np.zeros(len(points), dtype=np.int32)
+        number = np.zeros(points.shape[:-1], dtype=np.int32)
         for axis in range(3):
             # One axis after the other: a third of the memory traffic, which is all this costs.
-            step = points[:, axis] * np.float32(1 / grid.spacing)
+            step = points[..., axis] * np.float32(1 / grid.spacing)
             step += np.float32(0.5 - grid.origin[axis] / grid.spacing)
             np.clip(step, 0, grid.shape[axis] - 1, out=step)
             number *= grid.shape[axis]
@@ -100,6 +102,17 @@ class Surroundings:
         if margin not in self._near_tables:
             self._near_tables[margin] = self.distances < margin + np.sqrt(0.75) * self.skin_grid.spacing
         return self._near_tables[margin]
+
+    @cached_property
+    def beside_thin_parts(self) -> NDArray[np.bool_]:
+        """Per node of the skin's grid: whether a thin part of the body is near, as ears are, (size,)."""
+        grid = self.skin_grid
+        depth = -self.distances.reshape(grid.shape)
+        # What a ball that rolls inside the body does not get into.
+        unreached = ndimage.distance_transform_edt(depth < _BLUNT) * grid.spacing - _BLUNT
+        thin = (depth >= 0) & (unreached > 0.25 * grid.spacing)
+        near: NDArray[np.bool_] = ndimage.maximum_filter(thin, 2 * round(_BESIDE / grid.spacing) + 1).ravel()
+        return near
 
     @cached_property
     def _near_tables(self) -> dict[float, NDArray[np.bool_]]:
