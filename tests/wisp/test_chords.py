@@ -39,7 +39,8 @@ def depth_between(strands: np.ndarray) -> float:
 def test_chords_over_an_ear_are_moved_out_of_it():
     _, _, surroundings = body()
     strands = strands_over_ears()
-    assert len(strands) > 20 and depth_between(strands) > 0.001
+    assert len(strands) > 20
+    assert depth_between(strands) > 0.001
     moved = keep_chords_outside(surroundings, strands.copy(), MARGIN)
     assert depth_between(moved) < 0.001
     assert surroundings.distance(moved.reshape(-1, 3)).min() > 0.9 * MARGIN
