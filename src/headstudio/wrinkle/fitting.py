@@ -20,6 +20,8 @@ from .valleys import valley_field
 
 # A change of shape is smooth over this [m]. Below this much of it beside the grooves [m], scan and skin count as one shape.
 _SMOOTH, _SAME_SHAPE = 0.014, 6e-4
+# Texels that tell this much of it lie beside grooves; under one and its rims they tell so much.
+_FREE, _UNDER = 0.5, 0.02
 # A groove and its rims lie within so many widths, its floor within so many.
 _FOOT, _FLOOR = 4.0, 1.5
 # Where grooves run into each other they seem to have no end: none is wider than this [m].
@@ -91,7 +93,9 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     fit = GrooveFit(raw.without(smooth), grooves)
     _steps(fit, _STEPS[0], progress, "laying furrows", 0.06, 0.2)
 
-    smooth = _notable(change_of_shape(raw, fit.height), raw, beside)
+    # Single shapes leave what grooves give besides, so that still only the rest of the skin tells.
+    beside = _beside(fit)
+    smooth = _notable(change_of_shape(raw, fit.height, beside), raw, beside)
     progress("matching their cross sections", 0.2)
     # Before sections are met, what single shapes leave beside grooves looks like valleys, too.
     fit = _with_sections(_pruned(GrooveFit(raw.without(smooth), fit.grooves)), _CLEAR)
@@ -180,14 +184,17 @@ def _beside(fit: GrooveFit) -> Floats:
     """How much each texel tells about a smooth change of shape, (k,): little where a groove or its rims may be."""
     beside = np.ones(len(fit.heights.height))
     for bed in fit.beds:
-        beside[bed.rows[np.abs(bed.across) < _FOOT * bed.groove.width]] = 0.02
+        beside[bed.rows[np.abs(bed.across) < _FOOT * bed.groove.width]] = _UNDER
     return beside
 
 
 def _notable(smooth: Floats, raw: ScanHeights, beside: Floats) -> Floats:
-    """A smooth change of shape, (k,), or none where it is too little ``beside`` grooves, (k,), to be one."""
-    size = np.sqrt(np.average(smooth[raw.covered] ** 2, weights=beside[raw.covered]))
-    return smooth if size > _SAME_SHAPE else np.zeros_like(smooth)
+    """A smooth change of shape, (k,), or none where half of what lies ``beside`` grooves, (k,), is too near for one.
+
+    The smooth change itself cannot tell: where grooves are close together it is what these give, on the whole.
+    """
+    free = np.abs(raw.height[raw.covered & (beside > _FREE)])
+    return smooth if len(free) and np.median(free) > _SAME_SHAPE else np.zeros_like(smooth)
 
 
 def _pruned(fit: GrooveFit) -> GrooveFit:
