@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats
+from .ears import before_ears
 from .joints import unit
 from .surroundings import Surroundings
 
@@ -30,6 +31,7 @@ _BOW = 6
 _AHEAD = 1.5  # how far ahead on a trajectory a wisp aims, in segments
 # What hair is led away from, in proportions of the head, while it is so near to the skin [m].
 _FACE, _BESIDE_SKIN = np.array([0.0, -1.0, 1.2]), 0.03
+_RISE = 1.0  # how much hair on its way back rises before an ear, against the way itself
 _PRESS = 0.05  # at this distance from a tie hair may be twice as dense as elsewhere [m]
 
 
@@ -127,12 +129,14 @@ def _over_scalp(surroundings: Surroundings, ends: Floats, toward: Floats) -> tup
     """Unit directions, (k, 3), to something that may lie behind the head, and away from the skin, (k, 3).
 
     Where the straight way goes into the skin hair turns away from the face, as a comb would lead it, since along the
-    skin both ways around may look alike.
+    skin both ways around may look alike. Before an ear it rises, to pass above it.
     """
     distance, outward = surroundings.distance_and_gradient(ends)
     blocked = np.clip(-np.einsum("ij,ij->i", toward, outward), 0.0, 1.0) * (distance < _BESIDE_SKIN)
     from_face = unit(ends - surroundings.proportions.place(_FACE), otherwise=toward)
-    return unit(toward + blocked[:, None] * from_face, otherwise=toward), outward.astype(np.float64)
+    rise = before_ears(surroundings.proportions.measure(ends)) * (toward[:, 2] < 0)
+    over = toward + blocked[:, None] * from_face + _RISE * rise[:, None] * np.array([0.0, 1.0, 0.0])
+    return unit(over, otherwise=toward), outward.astype(np.float64)
 
 
 def _bowed(toward: Floats, outward: Floats, segments: Floats, slack: float) -> Floats:

@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..head.mesh import Floats
+from .ears import before_ears
 from .grid import Grid
 from .strands import Singles
 from .strokes import follow_strokes
@@ -64,8 +65,9 @@ def _gravity(places: Floats, styling: StylingSettings) -> Floats:
 
 def _back(places: Floats, styling: StylingSettings) -> Floats:
     # Around the skull as a comb goes: up the forehead, back over the top. Behind the head nothing pulls any more, so that
-    # what was combed back can fall.
+    # what was combed back can fall. Before an ear it goes up, to pass above it.
     way = np.stack([0 * places[:, 0], np.maximum(places[:, 2], 0.0), -np.maximum(places[:, 1], 0.4)], axis=1)
+    way[:, 1] += before_ears(places)
     return _fade(-places[:, 2], 0.3, 1.1) * way / np.linalg.norm(way, axis=1, keepdims=True)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 from .density import DensityField
+from .ears import at_ears
 from .field import ForceField
 from .joints import bend_toward, joint_stiffness, most_aligned, turn, unit
 from .outlines import Outlines
@@ -104,14 +105,18 @@ class Flow:
             carried[rooted] = self._combed(start[rooted], carried[rooted], force[rooted])
         straight = carried[:, :, 2]
         clearance = self._clearance(wisps, joint)
-        direction = most_aligned(force, straight, self.stiffness)
-        direction = self._slide(start, direction, clearance)
+        wanted = most_aligned(force, straight, self.stiffness)
+        direction = self._slide(start, wanted, clearance)
         # The first segment stands in the head's own density, and cannot leave it.
         free = np.where(joint == 0, np.inf, ceiling - self._density.added(self._amounts[wisps]))
         direction = self._make_room(start, direction, clearance, free)
         frames = turn(carried, straight, direction)
         self.frames[wisps, joint] = frames
-        self._turned[wisps] = frames @ rest.transpose(0, 2, 1)
+        # An ear lifts hair as long as it lies on it, and does not throw it outward: what it bends springs back.
+        lifted = np.flatnonzero(at_ears(self._density.surroundings.proportions.measure(start)))
+        sprung = frames.copy()
+        sprung[lifted] = turn(carried[lifted], straight[lifted], wanted[lifted])
+        self._turned[wisps] = sprung @ rest.transpose(0, 2, 1)
         self.ends[wisps] = start + self.outlines.segment * direction
         self._add(wisps, joint, start + 0.5 * self.outlines.segment * direction, frames, 1.0)
         self.laid[wisps] += 1

@@ -1,0 +1,38 @@
+"""Ears in the way of hair: what is led backward is combed up before them, and they lift what falls over them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..head.mesh import Floats
+
+# Where hair meets an ear from before, in proportions of the head: from nowhere to everywhere, and back to nowhere.
+_BESIDE = (0.55, 0.8)
+_HEIGHT = (-1.0, -0.7, -0.05, 0.15)
+_DEPTH = (-0.25, -0.05, 0.3, 0.55)
+
+
+# Where hair may lie on an ear, in proportions of the head.
+_LOWEST, _HIGHEST = np.array([0.85, -1.0, -0.5]), np.array([1.7, 0.15, 0.35])
+
+
+def at_ears(places: Floats) -> NDArray[np.bool_]:
+    """Whether hair at ``places``, in proportions of the head, (k, 3), may lie on an ear, (k,)."""
+    aside = np.concatenate([np.abs(places[:, :1]), places[:, 1:]], axis=1)
+    return ((aside > _LOWEST) & (aside < _HIGHEST)).all(axis=1)
+
+
+def before_ears(places: Floats) -> Floats:
+    """How much an ear is in the way of hair that goes back from ``places``, in proportions, (k, 3): 0 to 1, (k,)."""
+    beside = _ramp(np.abs(places[:, 0]), *_BESIDE)
+    return beside * _window(places[:, 1], *_HEIGHT) * _window(places[:, 2], *_DEPTH)
+
+
+def _ramp(value: Floats, start: float, end: float) -> Floats:
+    part = np.clip((value - start) / (end - start), 0.0, 1.0)
+    return part * part * (3.0 - 2.0 * part)
+
+
+def _window(value: Floats, low: float, from_: float, to: float, high: float) -> Floats:
+    return _ramp(value, low, from_) * (1.0 - _ramp(value, to, high))
