@@ -79,6 +79,9 @@ def row(number: int, keep: Path | None, show: Callable[[str], object]) -> None:
     report = measure(changed, scan, builder, laid)
     figures = []
     for where in ("the whole overlap", "around its wrinkles"):
+        if where not in report.rows:
+            figures.append("nowhere")
+            continue
         without, with_ = report.rows[where]
         figures.append(f"{1e3 * without.mean:.3f} {1e3 * with_.mean:.3f} {1 - with_.mean / without.mean:4.0%}")
     best = 1 - floor / report.rows["the whole overlap"][0].mean

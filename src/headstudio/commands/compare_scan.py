@@ -154,12 +154,13 @@ def compare_scan(document: Document, path: Path, fit: bool, out: Path | None) ->
     if fit:
         document, laid, note = fitted(document, scan, builder)
         say(note)
+        if out is not None:
+            # Minutes of work, and measuring takes a while: they are there if it is interrupted.
+            keep_furrows(document, out)
     with working("measuring"):
         report = measure(document, scan, builder, laid)
     results.print(_table(report))
     say(f"smooth change of shape: {_MM * report.shape:.2f} mm RMS")
-    if out is not None:
-        keep_furrows(document, out)
 
 
 def _at_both(

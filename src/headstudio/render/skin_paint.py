@@ -149,9 +149,10 @@ def _brows(points: Floats, marks: Landmarks) -> Floats:
         along = side * ((points - eye) @ left) / span
         t = np.clip((along + 0.30) / 0.72, 0, 1)
         arc = span * (0.30 + 0.11 * np.sin(np.pi * np.clip(t, 0, 1) ** 1.3) - 0.05 * t)
-        thickness = span * (0.062 * (1 - t) ** 0.7 + 0.018)
+        # No thinner than the triangles that carry it: a thinner tail comes in tufts.
+        thickness = span * (0.058 * (1 - t) ** 0.7 + 0.026)
         off = np.abs((points - eye) @ up - arc) / thickness
-        ends = _smoothstep(-0.34, -0.24, along) * (1 - _smoothstep(0.34, 0.46, along))
+        ends = _smoothstep(-0.34, -0.24, along) * (1 - _smoothstep(0.24, 0.41, along))
         front = _smoothstep(-0.04, -0.02, (points - eye) @ out)
         cover = np.maximum(cover, (1 - _smoothstep(0.3, 1.0, off)) * ends * front)
     return cover
