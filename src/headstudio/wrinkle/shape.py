@@ -49,13 +49,16 @@ def amplitude(shrinkage: Floats, initial: Floats | float) -> Floats:
     shrinkage, which lowers M by at most 0.005. M(0) = 0 and M(s < 0) = 0 stay.
     """
     s, r = np.broadcast_arrays(np.asarray(shrinkage, dtype=np.float64), np.asarray(initial, dtype=np.float64))
-    never = r == 0
-    grown = (1.0 - r) * s + r
-    if never.any():
-        grown = np.where(never, np.where(s < _CORNER, s**2 / (2 * _CORNER), s - _CORNER / 2), grown)
-    stretched = s < 0
-    some = r[stretched]
-    grown[stretched] = some * np.exp(s[stretched] * (1.0 / np.where(some == 0, 1.0, some) - 1.0))
+    # Where r is 0: a parabola up to the corner, and then the line that it runs into.
+    low = np.clip(s, 0.0, _CORNER)
+    rounded = low * (s - 0.5 * low) / _CORNER
+    some = r > 0
+    if not some.any():
+        return np.asarray(rounded)
+    grown = np.where(some, (1.0 - r) * s + r, rounded)
+    stretched = some & (s < 0)
+    r = r[stretched]
+    grown[stretched] = r * np.exp(s[stretched] * (1.0 / r - 1.0))
     return grown
 
 
