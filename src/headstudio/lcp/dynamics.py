@@ -13,7 +13,6 @@ from .bending import Bending
 from .body import Body
 from .contact import Tethers, Touching, put_back, stop_at_body, stop_at_reach, touching
 from .direction import updated_directions
-from .inertia import apparent_acceleration
 from .interactions import hair_hair_forces
 from .model import HairModel, HairState
 from .neighbours import NeighbourList
@@ -74,25 +73,17 @@ class Dynamics:
                 acceleration += force / self.model.mass[:, None]
         return acceleration
 
-    def inner_acceleration(
-        self,
-        settings: DynamicsSettings,
-        frame: HeadFrame,
-        positions: Floats,
-        velocities: Floats,
-        rest_turn: Floats,
-        dt: float,
+    def bending_acceleration(
+        self, settings: DynamicsSettings, positions: Floats, velocities: Floats, rest_turn: Floats, dt: float
     ) -> Floats:
-        """What a single hair feels besides its springs and still air [m/s^2], (n, 3): gravity, inertia and bending.
+        """What keeps a single hair in shape [m/s^2], (n, 3).
 
         positions [m], velocities [m/s] and the turn of the hair at rest, Bending.rest_turn [rad]: (n, 3). dt: the step to
         come [s].
         """
-        acceleration = apparent_acceleration(frame, positions, velocities, settings.gravity)
         with self.timer.stage("bending"):
-            acceleration += self.bending.place(positions, settings)
             force = self.bending.curvature_force(positions, velocities, rest_turn, settings, dt)
-            return acceleration + force / self.model.mass[:, None]
+            return self.bending.place(positions, settings) + force / self.model.mass[:, None]
 
     def touch(self, positions: Floats, frame: HeadFrame) -> Touching:
         """Where the body is, seen from every particle."""

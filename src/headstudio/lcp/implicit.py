@@ -22,6 +22,7 @@ import numpy as np
 
 from ..head.mesh import Floats
 from .dynamics import Circumstances, Dynamics
+from .inertia import apparent_acceleration
 from .model import HairState
 from .resting import Meeting, solve_at_body
 from .spring_matrix import SpringMatrix
@@ -75,7 +76,11 @@ class ImplicitSolver:
         ahead = x_hat + g * v
         links = dynamics.links(ahead, settings)
         load = dynamics.springs.load(links, settings)
-        force = mass * (outer + dynamics.inner_acceleration(settings, frame, ahead, v, rest_turn, dt))
+        force = mass * (outer + dynamics.bending_acceleration(settings, ahead, v, rest_turn, dt))
+        # Coriolis turns with the velocity and stays out of the matrix, which is symmetric: it takes the velocity to come,
+        # or it would lag behind by a part.
+        coming = v + (v - v_before)
+        force += mass * apparent_acceleration(frame, x_hat + g * coming, coming, settings.gravity)
         force += dynamics.springs.forces(links, load, v)
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         # The plane that a particle is heading for tells how far from it the step starts.
@@ -120,7 +125,8 @@ class ImplicitSolver:
         links = dynamics.links(x, settings)
         springs = dynamics.springs.forces(links, dynamics.springs.load(links, settings), v)
         acceleration = outer - settings.air_friction * v
-        acceleration += dynamics.inner_acceleration(settings, frame, x, v, rest_turn, dt)
+        acceleration += apparent_acceleration(frame, x, v, settings.gravity)
+        acceleration += dynamics.bending_acceleration(settings, x, v, rest_turn, dt)
         acceleration += springs / dynamics.model.mass[:, None]
         held, _ = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
         acceleration = (held - v) / dt

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from .dynamics import Circumstances, Dynamics
+from .inertia import apparent_acceleration
 from .model import HairState
 from .settings import DynamicsSettings
 
@@ -47,7 +48,8 @@ class LeapfrogSolver:
         touch = dynamics.touch(x, frame)
         acceleration = dynamics.outer_acceleration(state, now, dt)
         rest_turn = dynamics.bending.rest_turn(state.directions)
-        acceleration += dynamics.inner_acceleration(settings, frame, x, v, rest_turn, dt)
+        acceleration += apparent_acceleration(frame, x, v, settings.gravity)
+        acceleration += dynamics.bending_acceleration(settings, x, v, rest_turn, dt)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, dynamics.springs.load(links, settings), v) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
