@@ -8,10 +8,25 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from headstudio.head.frame import HeadFrame
+from headstudio.lcp.dynamics import Circumstances, Dynamics
+from headstudio.lcp.implicit import ImplicitSolver
 from headstudio.lcp.inertia import apparent_acceleration
+from headstudio.lcp.model import HairState
+from headstudio.lcp.settings import DynamicsSettings
 from headstudio.scene.motion import frame_from_angles
 
+from .dome import hanging_chain, no_body
+
 G = 9.81
+LOOSE = DynamicsSettings(
+    elastic_modulus=1e-9,
+    hold=0.0,
+    stiffness=0.0,
+    spring_damping=0.0,
+    inner_friction=0.0,
+    air_friction=0.0,
+    interactions=False,
+)
 X = np.array([[0.1, 0.2, -0.3], [0.0, -0.1, 0.05]])
 V = np.array([[1.0, -0.5, 2.0], [0.2, 0.0, -0.4]])
 
@@ -93,3 +108,24 @@ def test_a_free_particle_flies_on_its_parabola(motion):
     solved = solve_ivp(flight, (0, 1), np.concatenate([seen, moving]), rtol=1e-9, atol=1e-10)
     landed = end.to_world(solved.y[None, :3, -1])[0]
     np.testing.assert_allclose(landed, x + v + [0, -0.5 * G, 0], atol=1e-6)
+
+
+@pytest.mark.parametrize("motion", [_spinning, _shaking, _everything])
+def test_the_real_time_solver_follows_it_with_second_order(motion):
+    """Loose hair, hardly linked, in a head that moves: half the step leaves a quarter of the error."""
+
+    def error(rate):
+        model = hanging_chain(2, spacing=0.1)
+        state = HairState(model.rest_positions, np.array([[0.0, 0.0, 0.0], [0.2, 0.6, -0.1]]), model.rest_directions)
+        solver = ImplicitSolver(Dynamics(model, no_body()), parts=1, tolerance=1e-6)
+        seen = np.concatenate([state.positions[1], state.velocities[1]])
+
+        def flight(time, y):
+            return np.concatenate([y[3:], apparent_acceleration(motion(time), y[None, :3], y[None, 3:], G)[0]])
+
+        expected = solve_ivp(flight, (0, 0.05), seen, rtol=1e-10, atol=1e-12).y[:3, -1]
+        for step in range(1, round(0.05 * rate) + 1):
+            state = solver.step(state, Circumstances(LOOSE, motion(step / rate), motion=motion), 1 / rate)
+        return np.linalg.norm(state.positions[1] - expected)
+
+    assert error(200) > 3 * error(400) > 0

@@ -12,6 +12,7 @@ from scipy import ndimage
 
 from .locate import Locator
 from .mesh import Floats, TriangleMesh
+from .rows import row_dot
 from .sampling import sample_surface
 
 _SAMPLES_PER_VOXEL = 24  # on a plane through it
@@ -56,7 +57,7 @@ class ContactField:
         below, facing = _tangent_planes(mesh, centres)
         # Where the surface ends its planes go on for a voxel and no further: beyond its border nothing is below it.
         across = np.cross(centres - below, facing)
-        ends = np.einsum("ij,ij->i", across, across) > voxel**2
+        ends = row_dot(across, across) > voxel**2
         plane[nearby] = np.where(ends, -1, len(mean) + np.arange(len(centres)))
         return cls(origin, voxel, plane, np.vstack([mean, below]), np.vstack([normal, facing]))
 
@@ -65,7 +66,7 @@ class ContactField:
         there, (n, 3). positions: [m], (n, 3)."""
         plane = self._plane_of_cell.take(self._cells(positions))
         normals = self._normals.take(plane, axis=0)
-        return np.einsum("ij,ij->i", positions, normals) - self._offsets.take(plane), normals
+        return row_dot(positions, normals) - self._offsets.take(plane), normals
 
     def _cells(self, positions: Floats) -> NDArray[np.int32]:
         """Where in ``_plane_of_cell`` positions are, (n,): outside, and where they are no numbers, in its border."""
@@ -87,7 +88,7 @@ class ContactField:
     @cached_property
     def _offsets(self) -> Floats:
         """Where each plane is along its normal [m]."""
-        return np.append(np.einsum("ij,ij->i", self.points, self.normals), -np.inf)
+        return np.append(row_dot(self.points, self.normals), -np.inf)
 
 
 def _shell(plane: NDArray[np.int32]) -> NDArray[np.bool_]:

@@ -20,6 +20,7 @@ from scipy import sparse
 from scipy.sparse.linalg import eigsh
 
 from ..head.mesh import Floats
+from ..head.rows import row_dot, row_length
 from .kernel import kernel
 from .model import HairModel
 from .settings import DynamicsSettings
@@ -110,7 +111,7 @@ def _turning(model: HairModel) -> tuple[sparse.csr_array, Floats]:
     whole = ((abs(before).sum(axis=1) > 0) & (abs(after).sum(axis=1) > 0) & ~model.fixed).astype(float)
     one = sparse.eye_array(model.count, format="csr")
     from_root, to_tip = (one - before) @ model.rest_positions, (after - one) @ model.rest_positions
-    from_root, to_tip = (np.maximum(np.linalg.norm(a, axis=1), 1e-3) for a in (from_root, to_tip))
+    from_root, to_tip = (np.maximum(row_length(a), 1e-3) for a in (from_root, to_tip))
     scaled = sparse.diags_array(whole / to_tip) @ (after - one) - sparse.diags_array(whole / from_root) @ (one - before)
     return scaled.tocsr(), 0.5 * (from_root + to_tip)
 
@@ -124,7 +125,7 @@ def _mean_of(at: np.ndarray, of: np.ndarray, weight: Floats, shape: tuple[int, i
 def turned_along(vectors: Floats, before: Floats, after: Floats) -> Floats:
     """``vectors`` turned by the smallest turn that leads from the unit directions ``before`` to ``after``, (n, 3) each."""
     axis = np.cross(before, after)
-    cosine = np.einsum("ij,ij->i", before, after)
+    cosine = row_dot(before, after)
     once = np.cross(axis, vectors)
     twice = np.cross(axis, once)
     # Rodrigues' formula with sin and cos put in; hair that points the other way round turns about any axis.

@@ -11,6 +11,7 @@ from ..head.frame import HeadFrame
 from ..head.hair_tight import hair_tight_surface
 from ..head.head import Head
 from ..head.mesh import Floats, TriangleMesh
+from ..head.rows import row_dot
 from .inertia import cross_matrix
 
 _VOXEL = 0.014
@@ -78,7 +79,7 @@ class Body:
         """Unit ``directions`` turned so that they do not lead into the body from ``positions`` [m], both (n, 3)."""
         planes = self.planes(positions)
         distance, normals = planes.distance, planes.normals
-        inward = np.einsum("ij,ij->i", directions, normals)
+        inward = row_dot(directions, normals)
         # Below the sliding distance a direction must lead out again, the more the deeper it is.
         wanted = np.clip((_SLIDING_DISTANCE - distance) / _SLIDING_DISTANCE, 0.0, 1.0) * 0.5
         correction = np.where(distance < _SLIDING_DISTANCE, np.maximum(wanted - inward, 0.0), 0.0)

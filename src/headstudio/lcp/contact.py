@@ -12,6 +12,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
+from ..head.rows import row_dot, row_length
 from .body import Body
 from .links import LENGTHWISE
 from .model import HairModel
@@ -72,7 +73,7 @@ def stop_at_body(
     distance: of the positions that the step starts from [m], (n,). Eq. 3.20 and 3.21 stop the normal part, 3.22 and 3.23
     (Coulomb, coefficient ``friction``) slow down the tangential one, and what is below the surface comes out (3.24).
     """
-    approach = np.einsum("ij,ij->i", velocities - touch.velocity, touch.normals)
+    approach = row_dot(velocities - touch.velocity, touch.normals)
     least = least_departure(touch, distance, dt)
     change = np.maximum(least - approach, 0.0)
     meets = np.flatnonzero(change > 0)
@@ -80,7 +81,7 @@ def stop_at_body(
     impulse = np.maximum(np.minimum(least[meets], 0.0) - approach[meets], 0.0)
     normals = touch.normals.take(meets, axis=0)
     sliding = velocities.take(meets, axis=0) - touch.velocity.take(meets, axis=0) - approach[meets, None] * normals
-    speed = np.sqrt(np.einsum("ij,ij->i", sliding, sliding))
+    speed = row_length(sliding)
     braked = np.minimum(friction * impulse, speed) / np.maximum(speed, 1e-12)
     stopped = velocities.copy()
     stopped[meets] += change[meets, None] * normals - braked[:, None] * sliding
@@ -97,7 +98,7 @@ def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Flo
     excess = np.minimum(touch.keep[deep], 0.0) - _DEEPEST - distance[deep]
     back[deep] += excess[:, None] * touch.normals[deep]
     from_root = back - model.root_points
-    reach = np.sqrt(np.einsum("ij,ij->i", from_root, from_root))
+    reach = row_length(from_root)
     far = np.flatnonzero((reach > _LAST_REACH * model.arc_length) & ~model.fixed)
     share = _LAST_REACH * model.arc_length[far] / reach[far]
     back[far] = model.root_points[far] + share[:, None] * from_root[far]
@@ -122,7 +123,7 @@ class Tethers:
     def drawn_along(self, positions: Floats) -> Floats:
         """Positions [m], (n, 3), where what was left behind has followed."""
         offset = positions.take(self._tipward, axis=0) - positions.take(self._rootward, axis=0)
-        square = np.einsum("ij,ij->i", offset, offset)
+        square = row_dot(offset, offset)
         far = np.flatnonzero((square > self._longest**2) & (square < self._holds_until**2))
         if len(far) == 0:
             return positions
@@ -145,15 +146,15 @@ def stop_at_reach(
     springs alone let go for good of what a hard stop has once torn off. Hair that touches the body is drawn along it.
     """
     ahead = positions + dt * velocities - model.root_points
-    reach = np.sqrt(np.einsum("ij,ij->i", ahead, ahead))
+    reach = row_length(ahead)
     far = np.flatnonzero((reach > LONGEST_REACH * model.arc_length) & ~model.fixed)
     over = reach[far] - LONGEST_REACH * np.maximum(model.arc_length[far], 0.0)
     back, normals = -ahead[far] / reach[far, None], touch.normals[far]
-    inward = np.einsum("ij,ij->i", back, normals)
+    inward = row_dot(back, normals)
     touches = (distance[far] <= touch.keep[far]) & (inward < 0)
     along = back - np.where(touches, inward, 0.0)[:, None] * normals
     # Going along the body brings less per way than the straight one: |along|^2 of it.
-    gain = np.maximum(np.einsum("ij,ij->i", along, along), _STEEPEST**2)
+    gain = np.maximum(row_dot(along, along), _STEEPEST**2)
     stopped = velocities.copy()
     stopped[far] += (over / (dt * gain))[:, None] * along
     return stopped

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_length
 from .kernel import kernel
 
 
@@ -14,6 +15,6 @@ def density(positions: Floats, mass: Floats, pairs: Ints, smoothing_length: floa
     positions: [m], (n, 3). mass: [kg], (n,). pairs: every pair closer than 2h, each once, (p, 2); farther ones do no harm.
     """
     i, j = pairs.T
-    weight = kernel(np.linalg.norm(positions[j] - positions[i], axis=1), smoothing_length)
+    weight = kernel(row_length(positions[j] - positions[i]), smoothing_length)
     own = mass * kernel(np.zeros(1), smoothing_length)
     return own + np.bincount(i, mass[j] * weight, len(mass)) + np.bincount(j, mass[i] * weight, len(mass))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..head.mesh import Floats
+from ..head.rows import row_dot, row_length
 from .model import HairModel
 from .springs import LinkState, Springs
 
@@ -19,7 +20,7 @@ def updated_directions(model: HairModel, springs: Springs, links: LinkState, dir
     seen_from_tip = turned(-links.unit, directions[tipward], model.rest_cosine[:, 1])
     weight = links.stiffness[:, None]
     total = springs.sum_at_ends(weight * seen_from_root, weight * seen_from_tip)
-    length = np.linalg.norm(total, axis=1)
+    length = row_length(total)
     steady = model.fixed | (length <= 1e-12 * length.max(initial=1e-300))
     return np.where(steady[:, None], directions, total / np.where(steady, 1.0, length)[:, None])
 
@@ -30,9 +31,9 @@ def turned(unit: Floats, direction: Floats, cosine: Floats) -> Floats:
     ``cosine`` is cos theta, (m,). The turn is about the axis normal to both; where they are parallel there is no such
     axis, and the answer is +-unit, on the hair's side.
     """
-    along = np.einsum("ij,ij->i", unit, direction)
+    along = row_dot(unit, direction)
     across = direction - along[:, None] * unit
-    length = np.sqrt(np.einsum("ij,ij->i", across, across))
+    length = row_length(across)
     parallel = length < 1e-6
     sine = np.sqrt(np.maximum(1.0 - cosine * cosine, 0.0))
     lengthwise = np.where(parallel, np.sign(along), cosine)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
+from ..head.rows import row_dot
 from .bending import Bending
 from .body import Body
 from .contact import Tethers, Touching, put_back, stop_at_body, stop_at_reach, touching
@@ -116,7 +117,7 @@ class Dynamics:
         with self.timer.stage("contact"):
             if now.parting is None:
                 drawn = self.tethers.drawn_along(positions)
-                distance = distance + np.einsum("ij,ij->i", drawn - positions, touch.normals)
+                distance = distance + row_dot(drawn - positions, touch.normals)
                 positions = drawn
             return put_back(self.model, positions, touch, distance)
 

@@ -21,6 +21,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..head.mesh import Floats
+from ..head.rows import row_dot
 from .dynamics import Circumstances, Dynamics
 from .inertia import apparent_acceleration
 from .model import HairState
@@ -135,6 +136,6 @@ class ImplicitSolver:
 
 def _along(way: Floats, a: Floats, most: float) -> Floats:
     """The part of ``a`` along ``way``, row by row, no longer than ``most`` times that way, (n, 3)."""
-    square = np.einsum("ij,ij->i", way, way)
-    share = np.einsum("ij,ij->i", way, a) / np.maximum(square, 1e-30)
+    square = row_dot(way, way)
+    share = row_dot(way, a) / np.maximum(square, 1e-30)
     return np.clip(share, -most, most)[:, None] * way

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from ..head.rows import row_dot
 from .dynamics import Circumstances, Dynamics
 from .inertia import apparent_acceleration
 from .model import HairState
@@ -54,6 +55,6 @@ class LeapfrogSolver:
         acceleration += dynamics.springs.forces(links, dynamics.springs.load(links, settings), v) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v, _ = dynamics.hold(x, v, touch, touch.distance, now, dt)
-        distance = touch.distance + dt * np.einsum("ij,ij->i", v - touch.velocity, touch.normals)
+        distance = touch.distance + dt * row_dot(v - touch.velocity, touch.normals)
         x = dynamics.put_back(x + dt * v, touch, distance, now)
         return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot, row_length
 from .kernel import kernel
 from .neighbours import find_pairs
 
@@ -52,11 +53,11 @@ def connect(
     """
     pairs = find_pairs(positions, 2.0 * smoothing_length)
     fixed = arc_length < 0
-    apart = np.linalg.norm(roots[pairs[:, 0]] - roots[pairs[:, 1]], axis=1)
+    apart = row_length(roots[pairs[:, 0]] - roots[pairs[:, 1]])
     pairs = pairs[(apart < same_strands) & ~(fixed[pairs[:, 0]] & fixed[pairs[:, 1]])]
     links = _measure(positions, directions, pairs)
     offset = np.column_stack([roots, arc_length])[links.pairs]
-    along_hair = np.linalg.norm(offset[:, 1] - offset[:, 0], axis=1)
+    along_hair = row_length(offset[:, 1] - offset[:, 0])
     fit = (
         (links.alignment >= SMALLEST_ALIGNMENT)
         & (offset[:, 0, 3] < offset[:, 1, 3])
@@ -100,10 +101,10 @@ def _measure(positions: Floats, directions: Floats, pairs: Ints) -> Links:
     """Rest length, alignment and strength of ``pairs``, each turned so that its first particle is the rootward one."""
     i, j = pairs.T
     offset = positions[j] - positions[i]
-    length = np.linalg.norm(offset, axis=1)
+    length = row_length(offset)
     unit = offset / np.maximum(length, 1e-12)[:, None]
-    cosine_ij = np.einsum("ij,ij->i", directions[i], unit)
-    cosine_ji = -np.einsum("ij,ij->i", directions[j], unit)
+    cosine_ij = row_dot(directions[i], unit)
+    cosine_ji = -row_dot(directions[j], unit)
     a = alignment(cosine_ij, cosine_ji)
     rootward_first = cosine_ij > 0
     pairs = np.where(rootward_first[:, None], pairs, pairs[:, ::-1])
@@ -123,11 +124,9 @@ def _anchor(loose: Ints, positions: Floats, directions: Floats, roots: Floats, a
     last_resort = fixed[cKDTree(place[fixed]).query(place[loose])[1]]
     chosen = np.where(rootward.any(axis=1), chosen, last_resort)
     offset = positions[loose] - positions[chosen]
-    length = np.linalg.norm(offset, axis=1)
+    length = row_length(offset)
     unit = offset / np.maximum(length, 1e-12)[:, None]
-    cosines = np.column_stack(
-        [np.einsum("ij,ij->i", directions[chosen], unit), -np.einsum("ij,ij->i", directions[loose], unit)]
-    )
+    cosines = np.column_stack([row_dot(directions[chosen], unit), -row_dot(directions[loose], unit)])
     a = np.maximum(alignment(*cosines.T), SMALLEST_ALIGNMENT)
     return Links(np.column_stack([chosen, loose]), length, a, a * length, cosines)
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot
 
 # The rows of cells from a cell on, in the order of the sorted array: (dy, dz, first dx, last dx). Of its own row those
 # that come after it.
@@ -81,4 +82,4 @@ def _approach(before: Floats, now: Floats) -> float:
     moved = now - before
     # What all particles do together changes no distance.
     moved = moved - moved.mean(axis=0)
-    return 2.0 * float(np.sqrt(np.max(np.einsum("ij,ij->i", moved, moved), initial=0.0)))
+    return 2.0 * float(np.sqrt(np.max(row_dot(moved, moved), initial=0.0)))

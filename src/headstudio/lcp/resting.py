@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats
+from ..head.rows import row_dot, row_length
 from .contact import RESTING, Touching, least_departure
 from .spring_matrix import SpringMatrix
 
@@ -47,14 +48,14 @@ class Meeting:
     def ahead(cls, touch: Touching, velocities: Floats, dt: float) -> Meeting:
         """For planes seen from where particles with ``velocities`` [m/s], (n, 3), come to in dt [s]."""
         slip = velocities - touch.velocity
-        leaving = np.einsum("ij,ij->i", slip, touch.normals)
+        leaving = row_dot(slip, touch.normals)
         distance = touch.distance - dt * leaving
         least = least_departure(touch, distance, dt)
         return cls(touch, distance, slip, leaving, least, touch.distance <= touch.keep + RESTING)
 
     def distance_after(self, change: Floats, dt: float) -> Floats:
         """Distance of the particles [m], (n,), when dt [s] pass with ``change`` [m/s], (n, 3), more velocity than now."""
-        return self.distance + dt * (self.leaving + np.einsum("ij,ij->i", change, self.touch.normals))
+        return self.distance + dt * (self.leaving + row_dot(change, self.touch.normals))
 
 
 def solve_at_body(
@@ -81,14 +82,14 @@ def solve_at_body(
         normal = normals[which]
         slip = meeting.slip[which] - meeting.leaving[which, None] * normal
         sliding = slip + _across(change[which], normal)
-        speed = np.sqrt(np.einsum("ij,ij->i", sliding, sliding))
+        speed = row_length(sliding)
         drag = g * friction * pressing[which] / np.maximum(speed, _STICKING)
         matrix.hold(which, normal, drag)
         dragged, start = right.copy(), change.copy()
         dragged[which] -= drag[:, None] * slip
         start[which] = _across(start[which], normal) + (meeting.least - meeting.leaving)[which, None] * normal
         change, left = matrix.solve(dragged, start, rest)
-        force = -np.einsum("ij,ij->i", left, normals) / g
+        force = -row_dot(left, normals) / g
         held = np.where(held, force > 0, ~fixed & (meeting.leaving + _along(change, normals) < meeting.least - _SLACK))
         pressing = np.zeros(len(force))
         pressing[which] = np.maximum(force[which], 0.0)
@@ -101,4 +102,4 @@ def _across(vectors: Floats, normals: Floats) -> Floats:
 
 
 def _along(vectors: Floats, normals: Floats) -> Floats:
-    return np.einsum("ij,ij->i", vectors, normals)
+    return row_dot(vectors, normals)

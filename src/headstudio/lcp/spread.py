@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..head.mesh import Floats
+from ..head.rows import row_dot, row_length
 from .body import Body
 from .neighbours import find_pairs
 
@@ -36,10 +37,10 @@ def spread(
         lack = np.where(np.isfinite(planes.distance), np.maximum(clearance - planes.distance, 0.0), 0.0)
         moved = moved + lack[:, None] * planes.normals
         offset = moved - start
-        length = np.linalg.norm(offset, axis=1)
+        length = row_length(offset)
         moved = start + np.minimum(1.0, farthest / np.maximum(length, 1e-12))[:, None] * offset
         from_root = moved - roots
-        reach = np.maximum(np.linalg.norm(from_root, axis=1), 1e-12)
+        reach = np.maximum(row_length(from_root), 1e-12)
         within = roots + np.minimum(1.0, arc_length / reach)[:, None] * from_root
         positions = np.where((arc_length > 0)[:, None], within, start)
     return positions
@@ -52,9 +53,9 @@ def _way_out(positions: Floats, directions: Floats, room: float) -> Floats:
     offset = positions[j] - positions[i]
     along = directions[i] + directions[j]
     along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
-    across = offset - np.einsum("ij,ij->i", offset, along)[:, None] * along
-    length = np.linalg.norm(across, axis=1)
-    overlap = room - np.linalg.norm(offset, axis=1)
+    across = offset - row_dot(offset, along)[:, None] * along
+    length = row_length(across)
+    overlap = room - row_length(offset)
     # One straight behind the other is no overlap that going sideways could end.
     push = np.where(length > 1e-6, 0.5 * overlap / np.maximum(length, 1e-6), 0.0)[:, None] * across
     way = np.empty_like(positions)

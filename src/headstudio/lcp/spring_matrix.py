@@ -13,6 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot
 from .model import HairModel
 from .springs import LinkState, Load, Springs
 
@@ -95,7 +96,7 @@ class SpringMatrix:
         blocks = np.empty((len(place), 3, 3))
         _invert_symmetric(dragged, blocks)
         stiff = np.einsum("kij,kj->ki", blocks, normals)
-        blocks -= stiff[:, :, None] * (stiff / np.einsum("ij,ij->i", stiff, normals)[:, None])[:, None, :]
+        blocks -= stiff[:, :, None] * (stiff / row_dot(stiff, normals)[:, None])[:, None, :]
         inverse[place] = blocks
 
     def solve(self, right: Floats, guess: Floats, tolerance: float) -> tuple[Floats, Floats]:

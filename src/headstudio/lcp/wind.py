@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot, row_length
 from .body import Body
 from .kernel import kernel, kernel_slope
 from .model import HairModel
@@ -141,7 +142,7 @@ class Wind:
         self, positions: Floats, velocities: Floats, wind: Floats, direction: Floats, frame: HeadFrame, dt: float
     ) -> tuple[Floats, Floats]:
         """Positions [m] and velocities [m/s] after dt, in strides that no contact plane is too thin for."""
-        fastest = np.max(np.linalg.norm(velocities, axis=1), initial=0.0)
+        fastest = np.max(row_length(velocities), initial=0.0)
         strides = math.ceil(min(max(fastest * dt / _STRIDE, _EVALUATIONS), _MOST_STRIDES))
         part = dt / strides
         top_speed = _MOST_STRIDES * _STRIDE / dt
@@ -167,7 +168,7 @@ class Wind:
             return acceleration
         i, j = pairs.T
         x = positions[j] - positions[i]
-        distance = np.sqrt(np.einsum("ij,ij->i", x, x))
+        distance = row_length(x)
         count = len(positions)
         weight = kernel(distance, h)
         own = kernel(np.zeros(1), h)
@@ -189,7 +190,7 @@ class Wind:
         distance, normals = self._plane(positions, frame)
         near = np.flatnonzero(distance < _GAP + 2.0 * _STRIDE)
         ahead, n = distance[near] - _GAP, normals[near]
-        approach = np.einsum("ij,ij->i", velocities[near], n)
+        approach = row_dot(velocities[near], n)
         slowest = -np.maximum(ahead, 0.0) / dt
         velocities = velocities.copy()
         velocities[near] += np.maximum(slowest - approach, 0.0)[:, None] * n

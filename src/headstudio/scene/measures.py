@@ -7,6 +7,7 @@ import numpy as np
 from ..head.depth import SkinDepth
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot, row_length
 from ..lcp.density import density
 from ..lcp.links import LENGTHWISE
 from ..lcp.model import HairModel, HairState
@@ -26,7 +27,7 @@ def hair_figures(model: HairModel, state: HairState) -> dict[str, float]:
     stretch = link_stretch(model, state.positions)
     relative = density(state.positions, model.mass, pairs, model.smoothing_length) / model.rest_density.mean()
     return {
-        "kinetic_energy": 0.5 * float(np.sum(model.mass * np.einsum("ij,ij->i", state.velocities, state.velocities))),
+        "kinetic_energy": 0.5 * float(np.sum(model.mass * row_dot(state.velocities, state.velocities))),
         "stretch_rms": float(np.sqrt(np.mean(stretch**2))) if len(stretch) else 0.0,
         "stretch_max": float(stretch.max(initial=0.0)),
         "reach_max": float(reach(model, state.positions).max(initial=0.0)),
@@ -46,7 +47,7 @@ def link_stretch(model: HairModel, positions: Floats) -> Floats:
 def reach(model: HairModel, positions: Floats) -> Floats:
     """|x_i - root_i| / s_i of the particles far enough out for it to mean something, (k,)."""
     out = model.arc_length >= model.smoothing_length
-    return np.linalg.norm(positions[out] - model.root_points[out], axis=1) / model.arc_length[out]
+    return row_length(positions[out] - model.root_points[out]) / model.arc_length[out]
 
 
 def head_figures(frame: HeadFrame) -> dict[str, float]:
@@ -68,4 +69,4 @@ def parting_figures(model: HairModel, parting: Parting | None, state: HairState)
 
 
 def _distances(positions: Floats, pairs: Ints) -> Floats:
-    return np.linalg.norm(positions[pairs[:, 1]] - positions[pairs[:, 0]], axis=1)
+    return row_length(positions[pairs[:, 1]] - positions[pairs[:, 0]])
