@@ -13,7 +13,6 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints
-from ..head.rows import row_dot
 from .model import HairModel
 from .springs import LinkState, Load, Springs
 
@@ -39,8 +38,9 @@ class SpringMatrix:
         block = np.concatenate([links + np.arange(count), inner, inner])
         rows = np.concatenate([np.arange(count), rootward[inner], tipward[inner]])
         columns = np.concatenate([np.arange(count), tipward[inner], rootward[inner]])
-        entry_rows = (3 * rows[:, None] + np.repeat(np.arange(3), 3)).ravel()
-        entry_columns = (3 * columns[:, None] + np.tile(np.arange(3), 3)).ravel()
+        # All x, then all y, then all z: what is done to every block is done to long rows.
+        entry_rows = (rows[:, None] + count * np.repeat(np.arange(3), 3)).ravel()
+        entry_columns = (columns[:, None] + count * np.tile(np.arange(3), 3)).ravel()
         source = (_SIX_OF_NINE * (links + count) + block[:, None]).ravel()
         # Numbering the entries and letting scipy sort them tells where each one goes.
         numbered = sparse.csr_array((np.arange(len(source)), (entry_rows, entry_columns)), shape=(3 * count, 3 * count))
@@ -53,9 +53,8 @@ class SpringMatrix:
             shape=numbered.shape,
         )
         self._six = np.zeros((6, links + count))
-        one_each = np.arange(count + 1)
-        self._inverse = sparse.bsr_array((np.zeros((count, 3, 3)), one_each[:-1], one_each), shape=numbered.shape)
-        self._inverse_of_free = np.zeros((count, 3, 3))
+        self._inverse = np.zeros((3, 3, count))
+        self._inverse_of_free = np.zeros((3, 3, count))
         self._held = np.zeros(0, dtype=np.int64)
 
     def update(self, links: LinkState, load: Load, g: float, inertia: Floats) -> None:
@@ -77,7 +76,7 @@ class SpringMatrix:
         of_links *= -1.0
         np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
         _invert_symmetric(of_diagonal, self._inverse_of_free)
-        self._inverse.data[:] = self._inverse_of_free
+        self._inverse[:] = self._inverse_of_free
         self._held = np.zeros(0, dtype=np.int64)
 
     def hold(self, held: Ints, normals: Floats, drag: Floats) -> None:
@@ -85,19 +84,20 @@ class SpringMatrix:
 
         held: their indices, (k,), none of them a root particle. normals: (k, 3). drag: [kg], (k,).
         """
-        diagonal, data, inverse = self._six[:, -len(self._free) :], self._matrix.data, self._inverse.data
+        diagonal, data, inverse = self._six[:, -len(self._free) :], self._matrix.data, self._inverse
         # What the last call held is let go.
         data[self._where_diagonal[self._held]] = diagonal[:, self._held].T[:, _SIX_OF_NINE]
-        inverse[self._held] = self._inverse_of_free[self._held]
+        inverse[:, :, self._held] = self._inverse_of_free[:, :, self._held]
         self._held = place = self._place[held]
-        across = np.eye(3) - normals[:, :, None] * normals[:, None, :]
-        dragged = diagonal[:, place] + (drag[:, None, None] * across).reshape(-1, 9)[:, _NINE_TO_SIX].T
+        normal = np.ascontiguousarray(normals.T)
+        across = np.eye(3)[:, :, None] - normal[:, None] * normal[None, :]
+        dragged = diagonal[:, place] + (drag * across).reshape(9, -1)[_NINE_TO_SIX]
         data[self._where_diagonal[place]] = dragged.T[:, _SIX_OF_NINE]
-        blocks = np.empty((len(place), 3, 3))
+        blocks = np.empty((3, 3, len(place)))
         _invert_symmetric(dragged, blocks)
-        stiff = np.einsum("kij,kj->ki", blocks, normals)
-        blocks -= stiff[:, :, None] * (stiff / row_dot(stiff, normals)[:, None])[:, None, :]
-        inverse[place] = blocks
+        stiff = _times(blocks, normal)
+        blocks -= stiff[:, None] * (stiff / (stiff * normal).sum(axis=0))[None, :]
+        inverse[:, :, place] = blocks
 
     def solve(self, right: Floats, guess: Floats, tolerance: float) -> tuple[Floats, Floats]:
         """Preconditioned conjugate gradients from ``guess``: the solution and what it leaves of ``right``, (n, 3) each.
@@ -106,23 +106,23 @@ class SpringMatrix:
         sign turned round. tolerance: of the rest, as a part of the right side.
         """
         matrix, inverse = self._matrix, self._inverse
-        wanted = right[self._free].ravel()
-        solution = guess[self._free].ravel()
+        wanted = right[self._free].ravel(order="F")
+        solution = guess[self._free].ravel(order="F")
         residual = wanted - matrix @ solution
-        z = inverse @ residual
+        z = _times(inverse, residual)
         direction = z.copy()
         rho = residual @ z
         if not np.isfinite(rho):
             # A force that is no number must not pass for one that is solved.
             return np.full_like(right, np.nan), np.full_like(right, np.nan)
-        goal = tolerance**2 * (wanted @ (inverse @ wanted))
+        goal = tolerance**2 * (wanted @ _times(inverse, wanted))
         taken = 0
         while rho > goal and taken < _MOST_ITERATIONS:
             image = matrix @ direction
             step = rho / (direction @ image)
             solution += step * direction
             residual -= step * image
-            z = inverse @ residual
+            z = _times(inverse, residual)
             rho, last = residual @ z, rho
             direction *= rho / last
             direction += z
@@ -131,18 +131,24 @@ class SpringMatrix:
 
     def _at_all(self, of_free: Floats) -> Floats:
         at_all = np.zeros((len(self._place), 3))
-        at_all[self._free] = of_free.reshape(-1, 3)
+        at_all[self._free] = of_free.reshape(3, -1).T
         return at_all
 
 
+def _times(blocks: Floats, vectors: Floats) -> Floats:
+    """Blocks (3, 3, n) times as many vectors, all x first, then all y, then all z, of the shape of ``vectors``."""
+    product: Floats = np.einsum("ijk,jk->ik", blocks, vectors.reshape(3, -1))
+    return product.reshape(vectors.shape)
+
+
 def _invert_symmetric(six: Floats, out: Floats) -> None:
-    """The inverses of symmetric 3 x 3 matrices by their cofactors. six: xx, xy, xz, yy, yz, zz, (6, n). out: (n, 3, 3)."""
+    """The inverses of symmetric 3 x 3 matrices by their cofactors. six: xx, xy, xz, yy, yz, zz, (6, n). out: (3, 3, n)."""
     a, b, c, d, e, f = six
     first, second, third = d * f - e * e, c * e - b * f, b * e - c * d
     scale = 1.0 / (a * first + b * second + c * third)
-    out[:, 0, 0] = first * scale
-    out[:, 0, 1] = out[:, 1, 0] = second * scale
-    out[:, 0, 2] = out[:, 2, 0] = third * scale
-    out[:, 1, 1] = (a * f - c * c) * scale
-    out[:, 1, 2] = out[:, 2, 1] = (b * c - a * e) * scale
-    out[:, 2, 2] = (a * d - b * b) * scale
+    out[0, 0] = first * scale
+    out[0, 1] = out[1, 0] = second * scale
+    out[0, 2] = out[2, 0] = third * scale
+    out[1, 1] = (a * f - c * c) * scale
+    out[1, 2] = out[2, 1] = (b * c - a * e) * scale
+    out[2, 2] = (a * d - b * b) * scale
