@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..head.mesh import Floats
-from ..head.rows import row_dot, row_length
+from ..head.rows import in_columns, row_dot, row_length
 from .model import HairModel
 from .springs import LinkState, Springs
 
@@ -16,8 +16,9 @@ def updated_directions(model: HairModel, springs: Springs, links: LinkState, dir
     directions: the present ones, unit, (n, 3). A root particle keeps its own; so does one whose links cancel out.
     """
     rootward, tipward = model.links.T
-    seen_from_root = turned(links.unit, directions[rootward], model.rest_cosine[:, 0])
-    seen_from_tip = turned(-links.unit, directions[tipward], model.rest_cosine[:, 1])
+    at_rootward, at_tipward = (in_columns(directions.take(end, axis=0)) for end in (rootward, tipward))
+    seen_from_root = turned(links.unit, at_rootward, model.rest_cosine[:, 0])
+    seen_from_tip = turned(-links.unit, at_tipward, model.rest_cosine[:, 1])
     weight = links.stiffness[:, None]
     total = springs.sum_at_ends(weight * seen_from_root, weight * seen_from_tip)
     length = row_length(total)

@@ -12,7 +12,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats
-from ..head.rows import row_dot, row_length
+from ..head.rows import in_columns, row_dot, row_length
 from .kernel import kernel
 from .model import HairModel
 from .settings import DynamicsSettings
@@ -73,7 +73,7 @@ class Springs:
 
     def at(self, positions: Floats, elastic_modulus: float) -> LinkState:
         """Directions, lengths and coefficients of the springs. positions: [m], (n, 3). elastic_modulus: E [Pa]."""
-        offset = self._difference @ positions
+        offset = in_columns(self._difference @ positions)
         length = row_length(offset)
         unit = offset / np.maximum(length, 1e-9)[:, None]
         return LinkState(unit, length, self._stiffness(length, elastic_modulus))
@@ -116,7 +116,7 @@ class Springs:
 
     def forces(self, links: LinkState, load: Load, velocities: Floats) -> Floats:
         """Force of the damped springs on every particle [N], (n, 3). velocities: [m/s], (n, 3)."""
-        parting = self._difference @ velocities
+        parting = in_columns(self._difference @ velocities)
         closing = row_dot(parting, links.unit)
         pull = load.pull + load.damping * closing
         return self.spread(pull[:, None] * links.unit + load.friction[:, None] * parting)
