@@ -23,7 +23,7 @@ def test_it_prints_a_column_for_each_count_and_writes_all_figures(headstudio, mo
     assert [cost["particles"] for cost in report["animations"]] == pytest.approx([100, 150], rel=0.02)
     for cost in report["animations"]:
         assert cost["frames"] == 2
-        assert cost["frame_ms"] == pytest.approx(cost["simulation_ms"] + cost["picture_ms"], rel=0.5)
+        assert 0 < cost["frame_ms"] < 3 * (cost["simulation_ms"] + cost["picture_ms"])
         assert cost["fps"] == pytest.approx(1000 / cost["frame_ms"])
         assert cost["neighbours"]["steps"] > 0
         assert min(cost["stages"].values()) >= 0

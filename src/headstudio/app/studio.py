@@ -17,6 +17,7 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.drafts import drafted, next_to_build, same_hair
 from ..scene.project import ProjectError
+from ..scene.simulation import Simulation
 from ..scene.stage import Stage
 from ..wisp.selection import StylingError
 from .brush import Brush
@@ -45,7 +46,8 @@ class Grown:
 class Studio:
     """Everything the faces of the window show and change."""
 
-    def __init__(self) -> None:
+    def __init__(self, simulation: type[Simulation] = Simulation) -> None:
+        """simulation: what moves loose hair."""
         self.work = Work()
         self.messages = Messages()
         self.playback = Playback()
@@ -57,7 +59,7 @@ class Studio:
         self.stage: Stage | None = None
         builder = Builder(lambda part: self.builds.announce(part))
         self.builds: Builds[Grown] = Builds(
-            lambda document: _grow(builder, document, settled=document is self._settling)
+            lambda document: _grow(builder, document, simulation, settled=document is self._settling)
         )
         self._settling: Document | None = None
         self._unsettled_for = 0.0
@@ -284,8 +286,9 @@ def explain(error: Exception) -> str:
     return text if isinstance(error, FORESEEN) else f"{type(error).__name__}: {text}"
 
 
-def _grow(builder: Builder, document: Document, *, settled: bool) -> Grown:
-    return Grown(document, Animation(builder, document, document.look.strands_shown, settled=settled))
+def _grow(builder: Builder, document: Document, simulation: type[Simulation], *, settled: bool) -> Grown:
+    shown = document.look.strands_shown
+    return Grown(document, Animation(builder, document, shown, settled=settled, simulation=simulation))
 
 
 def _is_draft(shown: Document, wanted: Document) -> bool:

@@ -25,15 +25,22 @@ class Animation:
     """
 
     def __init__(
-        self, builder: Builder, document: Document, strands: int | None = None, *, settled: bool = True
+        self,
+        builder: Builder,
+        document: Document,
+        strands: int | None = None,
+        *,
+        settled: bool = True,
+        simulation: type[Simulation] = Simulation,
     ) -> None:
         """Build what the document asks for; ``strands``: of a hairstyle at most so many. settled: False is quicker where
-        furrows change, and leaves ``settled`` to be made up for. Raises HeadError, ParameterError."""
+        furrows change, and leaves ``settled`` to be made up for. simulation: SimulationAhead for who looks on live.
+        Raises HeadError, ParameterError."""
         self.document = document
         self.head = builder.head(document.head)
         self.scalp = builder.scalp(document)
         hair_as = document.look.hair_as
-        self.simulation = Simulation(builder.build(document), document) if hair_as == "particles" else None
+        self.simulation = simulation(builder.build(document), document) if hair_as == "particles" else None
         self.hairdo = builder.hairdo(document, strands) if hair_as == "strands" else None
         self.skin = builder.skin(document, settled=settled) if document.look.skin_as == "living" else None
         self._shown: tuple[FaceSettings, LivingSkin] | None = None

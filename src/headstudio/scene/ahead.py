@@ -1,0 +1,171 @@
+"""The simulation in a process of its own, one frame ahead of the picture.
+
+While a frame is drawn the next one is worked out elsewhere, so that a frame takes as long as the slower of the two. Python
+threads would not do: both sides are many small calls that hold its lock.
+
+The other process keeps nothing between two frames but the neighbour list. It is told the moment to go on from, the
+parameters, and where the head will be, and it answers with the moment that it has come to. So whatever happens here in
+between (hands, a reset, another slider) is simply part of what it is told next.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+import weakref
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+
+from ..head.frame import HeadFrame
+from ..lcp.body import Body
+from ..lcp.model import HairModel
+from .builder import Built
+from .document import Document
+from .motion import Motion
+from .moving_hair import STEP_RATE, MovingHair
+from .simulation import Simulation
+
+
+@dataclass(frozen=True)
+class SampledMotion:
+    """A motion as frames at equal distances, for those who cannot ask for any other. start [s]; rate [1/s]."""
+
+    start: float
+    rate: float
+    frames: tuple[HeadFrame, ...]
+
+    @classmethod
+    def of(cls, motion: Motion, start: float, rate: float, count: int) -> SampledMotion:
+        """``count`` frames of ``motion``, from ``start`` [s] on."""
+        return cls(start, rate, tuple(motion(start + k / rate) for k in range(count)))
+
+    def __call__(self, time: float) -> HeadFrame:
+        """The frame next to ``time`` [s]."""
+        return self.frames[min(max(round((time - self.start) * self.rate), 0), len(self.frames) - 1)]
+
+
+class SimulationAhead(Simulation):
+    """A Simulation that is one frame ahead: advance() takes what it asked for last time, and asks for the next frame.
+
+    The process starts with the first advance(). Until it is there, which takes a second or two, and should it come to an
+    end, the simulation goes on in this process.
+    """
+
+    def __init__(self, built: Built, document: Document) -> None:
+        self._worker: _Worker | None = None
+        self._asked = False
+        super().__init__(built, document)
+
+    def advance(self, motion: Motion, seconds: float) -> None:
+        """Take the frame asked for last, and ask for one ``seconds`` later while the head moves by ``motion``."""
+        self._take()
+        worker = self._running()
+        if not worker.ready:
+            super().advance(motion, seconds)
+            return
+        start, count = self.frame_times(seconds)
+        sampled = SampledMotion.of(motion, start, STEP_RATE * self.parts, count)
+        self._asked = worker.ask(self.document, self.moment(), sampled, seconds)
+
+    def wait_for_process(self) -> bool:
+        """Start the process and wait until it is there; False when it cannot be had."""
+        return self._running().wait()
+
+    def reset(self) -> None:
+        """Back to the initial state."""
+        self._take()
+        super().reset()
+
+    def hold_apart(self, width: float = 0.09) -> None:
+        """Part the hair of the back and hold it ``width`` [m] apart, until release()."""
+        self._take()
+        super().hold_apart(width)
+
+    def release(self) -> None:
+        """Let go of the hair."""
+        self._take()
+        super().release()
+
+    def _running(self) -> _Worker:
+        if self._worker is None:
+            self._worker = _Worker(self.model, self.dynamics.body, self.document)
+        return self._worker
+
+    def _take(self) -> None:
+        """Go on from the frame that was asked for, as soon as it is there."""
+        if not self._asked or self._worker is None:
+            return
+        self._asked = False
+        answer = self._worker.answer()
+        if answer is None:
+            self.notes.append("the process of the simulation has ended; hair goes on moving, more slowly")
+            return
+        moment, notes = answer
+        self.take_up(moment)
+        self.notes += notes
+
+
+class _Worker:
+    """The other process, as it is seen from here. It ends with the object, or with this process."""
+
+    def __init__(self, model: HairModel, body: Body, document: Document) -> None:
+        spawning = multiprocessing.get_context("spawn")
+        self._pipe, theirs = spawning.Pipe()
+        process = spawning.Process(target=_serve, args=(theirs, model, body, document), daemon=True)
+        process.start()
+        theirs.close()
+        self._ready = False
+        weakref.finalize(self, _end, self._pipe, process)
+
+    @property
+    def ready(self) -> bool:
+        """Whether it has started, and not ended."""
+        return self._ready or (not self._pipe.closed and self._pipe.poll() and self.wait())
+
+    def wait(self) -> bool:
+        """Wait until it has started; False when it has ended."""
+        if not self._ready and not self._pipe.closed:
+            self._ready = self.answer() is not None
+        return self._ready
+
+    def ask(self, *question: object) -> bool:
+        """Send what _serve works on; False when nobody is there any more."""
+        try:
+            self._pipe.send(question)
+        except OSError:
+            self._ready = False
+        return self._ready
+
+    def answer(self) -> tuple[dict[str, object], list[str]] | None:
+        """Wait for the answer; None when there will be none."""
+        try:
+            answer: tuple[dict[str, object], list[str]] = self._pipe.recv()
+        except (EOFError, OSError):
+            self._ready = False
+            self._pipe.close()
+            return None
+        return answer
+
+
+def _end(pipe: Connection, process: BaseProcess) -> None:
+    pipe.close()
+    process.join(1.0)
+    process.terminate()
+
+
+def _serve(pipe: Connection, model: HairModel, body: Body, document: Document) -> None:
+    """What the other process does: answer until nobody asks any more."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends with the process that asks
+    hair = MovingHair(model, body, document)
+    pipe.send(({}, []))
+    while True:
+        try:
+            tuned, moment, motion, seconds = pipe.recv()
+        except (EOFError, OSError):
+            return
+        hair.retune(tuned)
+        hair.take_up(moment)
+        hair.advance(motion, seconds)
+        pipe.send((hair.moment(), hair.notes))
+        hair.notes = []
