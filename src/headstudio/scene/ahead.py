@@ -10,6 +10,7 @@ between (hands, a reset, another slider) is simply part of what it is told next.
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import signal
 import weakref
@@ -158,14 +159,12 @@ def _serve(pipe: Connection, model: HairModel, body: Body, document: Document) -
     """What the other process does: answer until nobody asks any more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends with the process that asks
     hair = MovingHair(model, body, document)
-    pipe.send(({}, []))
-    while True:
-        try:
+    with contextlib.suppress(EOFError, OSError):  # nobody asks any more
+        pipe.send(({}, []))
+        while True:
             tuned, moment, motion, seconds = pipe.recv()
-        except (EOFError, OSError):
-            return
-        hair.retune(tuned)
-        hair.take_up(moment)
-        hair.advance(motion, seconds)
-        pipe.send((hair.moment(), hair.notes))
-        hair.notes = []
+            hair.retune(tuned)
+            hair.take_up(moment)
+            hair.advance(motion, seconds)
+            pipe.send((hair.moment(), hair.notes))
+            hair.notes = []
