@@ -54,6 +54,9 @@ PerStrandOption = Annotated[
     typer.Option("--points-per-strand", min=2, help="How many points make a strand, for files of bare points."),
 ]
 
+# Options that name what a command writes, whatever it is: "out" may be a folder.
+OUTPUTS = {"out", "stats", "json"}
+
 DIFFERENT = 1
 CANCELLED = 130
 FAILED = 2
@@ -65,9 +68,13 @@ def command(name: str | None = None) -> Callable[[Callable[..., None]], Callable
     def register(function: Callable[..., None]) -> Callable[..., None]:
         @functools.wraps(function)
         def run(*args: Any, **kwargs: Any) -> None:
+            from .commands.outputs import check_can_be_written
             from .commands.reporting import as_line, complain, foreseen
 
             try:
+                for name in OUTPUTS & kwargs.keys():
+                    if kwargs[name] is not None:
+                        check_can_be_written(kwargs[name], as_file=name != "out")
                 function(*args, **kwargs)
             except KeyboardInterrupt:
                 complain("cancelled")

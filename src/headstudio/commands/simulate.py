@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import errno
 import json
 import math
-import os
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -86,8 +84,6 @@ def simulate(document: Document, motion: Motion, shot: Shot) -> None:
     """Film a document in motion and write its figures. Raises what building, drawing and writing raise."""
     if shot.film is not None:
         check_is_film(shot.film)
-    if shot.stats is not None:
-        check_can_be_written(shot.stats)
     photographer = Photographer(shot.size) if shot.film else None
     run = Run(animate(document))
     with ExitStack() as stack:
@@ -111,15 +107,6 @@ def check_is_film(path: Path) -> None:
         raise ParameterError(
             f"a film ends in {', '.join(FILM_SUFFIXES)}, a folder of pictures in nothing; got {path.name!r}"
         )
-
-
-def check_can_be_written(path: Path) -> None:
-    """Make the folder of a file that will be written at the end. Raises OSError now, rather than after the work."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if path.is_dir():
-        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-    if not os.access(path.parent, os.W_OK):
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
 
 
 def write_report(report: dict[str, Any], path: Path) -> None:
