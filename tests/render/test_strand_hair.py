@@ -16,7 +16,7 @@ from headstudio.render.fibre import Fibre, melanin_absorption, scattering
 from headstudio.render.renderer import Renderer
 from headstudio.render.scene_block import SCENE_DTYPE
 from headstudio.render.sky_light import Sky, SkyLight, SkyPrograms, irradiance
-from headstudio.render.strand_detail import FINE, StrandSurvey, every_second
+from headstudio.render.strand_detail import FINE, StrandSurvey, thinned
 from headstudio.render.strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from headstudio.render.strand_picture import StrandScene, shown, strand_picture
 from headstudio.render.strand_points import PIECE, pack, piece_indices, strip_indices
@@ -310,8 +310,8 @@ class TestOnStage:
         renderer.render(Stage(egg, strands=strands), Look(), self.camera, (64, 64))
         assert renderer._strands.hair is not None
         assert renderer._strands.hair.sparse
-        assert every_second(strands).counts.tolist() == [9] * 200
-        np.testing.assert_array_equal(every_second(strands).points[8::9], strands.points[16::17])
+        assert thinned(strands, 2).counts.tolist() == [9] * 200
+        np.testing.assert_array_equal(thinned(strands, 2).points[8::9], strands.points[16::17])
 
     def test_final_picture_stops(self, renderer: Renderer, egg: Head) -> None:
         done: list[int] = []

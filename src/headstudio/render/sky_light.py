@@ -7,6 +7,7 @@ skin turn into what they send on.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import moderngl
@@ -23,7 +24,6 @@ from .view import Sphere, bounding_sphere, parallel_view
 
 MAP_SIZE = 192
 BODY_SIZE = 256
-_TILES = 6
 # Places this near under the surface still see past it [m].
 _BIAS = 0.003
 # Depth, in boxes, where a view shows no body.
@@ -62,8 +62,9 @@ class SkyLight:
     ) -> None:
         self._context = context
         self._programs = programs
-        self._hair = DeepOpacityMap(context, opacity, MAP_SIZE, _TILES)
-        side = BODY_SIZE * _TILES
+        self._tiles = math.isqrt(2 * detail.pairs - 1) + 1
+        self._hair = DeepOpacityMap(context, opacity, MAP_SIZE, self._tiles)
+        side = BODY_SIZE * self._tiles
         self._body = context.texture((side, side), 4, dtype="f4")
         self._body.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._body_target = context.framebuffer([self._body], context.depth_texture((side, side)))
@@ -104,7 +105,12 @@ class SkyLight:
         with self._context.scope(target, moderngl.DEPTH_TEST):
             target.clear(0.0, 0.0, 0.0, _FAR, depth=1.0)
             for tile, light in enumerate(self._views):
-                target.viewport = (tile % _TILES * BODY_SIZE, tile // _TILES * BODY_SIZE, BODY_SIZE, BODY_SIZE)
+                target.viewport = (
+                    tile % self._tiles * BODY_SIZE,
+                    tile // self._tiles * BODY_SIZE,
+                    BODY_SIZE,
+                    BODY_SIZE,
+                )
                 set_uniforms(self._programs.body, map_from_head=tuple(light.clip_from_world.T.ravel()))
                 self._surface.render(vertices=self._corners)
             target.viewport = (0, 0, *target.size)
@@ -117,7 +123,7 @@ class SkyLight:
         self._frames.use(1)
         self._body.use(2)
         return receive(
-            self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=_TILES,
+            self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=self._tiles,
             body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
             lost=tuple(lost), sky_above=tuple(sky.above),
             sky_below=tuple(sky.below), upward=tuple(sky.upward), body_mean=tuple(self._mean), bias=_BIAS, **self._hair.bind(3),

@@ -14,6 +14,7 @@ from .view import Sphere, View, bounding_sphere
 
 _SAMPLE = 20_000  # of the points of strands whose bends are measured
 _MOST = 80  # percent
+_STRANDS = 500  # whose lengths are measured
 
 
 @dataclass(frozen=True)
@@ -21,8 +22,9 @@ class StrandDetail:
     """strand_pixels: strands are left out, and the others drawn wider, as long as these are no wider than so many pixels;
     0 leaves none out. bend_pixels: every second point of the strands is left out where most bend by no more than so many
     pixels from there to the next. sun_strands, sky_strands: how many strands, a fair sample of all, are drawn into the map
-    of the light and into those of the sky. stride: of their points only every so many. pairs: of opposite directions that
-    stand for the sky, at most 18. spacing: of the nodes where soft light is worked out [m], where the hair is not too
+    of the light and into those of the sky. stride: of their points only every so many. coarseness: texels of the
+    map of the light are so many times as large as those of other shadows. pairs: of opposite directions that
+    stand for the sky. spacing: of the nodes where soft light is worked out [m], where the hair is not too
     large for it.
     """
 
@@ -31,18 +33,40 @@ class StrandDetail:
     sun_strands: int
     sky_strands: int
     stride: int
+    coarseness: int
     pairs: int
     spacing: float
 
 
 FINE = StrandDetail(
-    strand_pixels=0.0, bend_pixels=0.0, sun_strands=20_000, sky_strands=2_500, stride=1, pairs=16, spacing=0.004
+    strand_pixels=0.0,
+    bend_pixels=0.0,
+    sun_strands=20_000,
+    sky_strands=2_500,
+    stride=1,
+    coarseness=1,
+    pairs=16,
+    spacing=0.004,
 )
 QUICK = StrandDetail(
-    strand_pixels=0.6, bend_pixels=0.6, sun_strands=5_000, sky_strands=800, stride=2, pairs=5, spacing=0.006
+    strand_pixels=0.6,
+    bend_pixels=0.6,
+    sun_strands=5_000,
+    sky_strands=800,
+    stride=2,
+    coarseness=1,
+    pairs=5,
+    spacing=0.006,
 )
 ROUGH = StrandDetail(
-    strand_pixels=1.0, bend_pixels=2.0, sun_strands=2_000, sky_strands=400, stride=2, pairs=3, spacing=0.01
+    strand_pixels=1.5,
+    bend_pixels=1.0,
+    sun_strands=2_000,
+    sky_strands=400,
+    stride=2,
+    coarseness=2,
+    pairs=3,
+    spacing=0.01,
 )
 """For a draft, which is looked at for the blink of an eye until there are more strands."""
 
@@ -73,6 +97,16 @@ class StrandSurvey:
         aside = points[inner] - 0.5 * (points[inner - 1] + points[inner + 1])
         return float(np.percentile(np.linalg.norm(aside, axis=1), _MOST)) if len(inner) else 0.0
 
+    def shortening(self, step: int) -> float:
+        """How many times as long the strands are as they would be drawn with only every ``step``-th of their points."""
+        few = self.strands.first[: -1 : max(self.strands.count // _STRANDS, 1)]
+        sizes = self.strands.first[1 :: max(self.strands.count // _STRANDS, 1)] - few
+        first = np.concatenate([[0], np.cumsum(sizes)])
+        kept = np.repeat(few - first[:-1], sizes) + np.arange(first[-1])
+        sample = Strands(self.strands.points[kept], first)
+        drawn = float(thinned(sample, step).lengths.sum())
+        return float(sample.lengths.sum()) / drawn if drawn > 0 else 1.0
+
     @cached_property
     def width(self) -> float:
         """Of a strand, in the mean [m]."""
@@ -85,12 +119,15 @@ class StrandSurvey:
         return 2.0 * max(distance - self.sphere.radius, view.near) / (view.focal * height)
 
 
-def every_second(strands: Strands) -> Strands:
-    """The strands without every second of their points, but with their tips."""
-    steps = -(-(strands.counts - 1) // 2)
+def thinned(strands: Strands, step: int) -> Strands:
+    """The strands with only every ``step``-th of their points, and with their tips."""
+    if step == 1:
+        return strands
+    steps = -(-(strands.counts - 1) // step)
     first = np.concatenate([[0], np.cumsum(steps + 1)])
     place = np.arange(first[-1]) - np.repeat(first[:-1], steps + 1)
-    kept = np.minimum(np.repeat(strands.first[:-1], steps + 1) + 2 * place, np.repeat(strands.first[1:] - 1, steps + 1))
+    ends = np.repeat(strands.first[1:] - 1, steps + 1)
+    kept = np.minimum(np.repeat(strands.first[:-1], steps + 1) + step * place, ends)
     radius = None if strands.radius is None else strands.radius[kept]
     colour = None if strands.colour is None else strands.colour[kept]
     return replace(strands, points=strands.points[kept], first=first, radius=radius, colour=colour)

@@ -20,7 +20,7 @@ from .light_volume import LightVolume, grid_around
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky_light import Sky, SkyLight
-from .strand_detail import StrandDetail, StrandSurvey, every_second
+from .strand_detail import StrandDetail, StrandSurvey, thinned
 from .strand_points import POINT_ROW, StrandTextures, pack, piece_indices, strip_indices
 from .targets import LightTargets
 from .view import View, parallel_view
@@ -74,8 +74,10 @@ class StrandHair:
         self.survey = survey
         self.detail = detail
         self.sparse = sparse
-        strands = every_second(survey.strands) if sparse else survey.strands
-        self._stands_for = strands.stands_for * strands.count
+        step = 2 if sparse else 1
+        strands = thinned(survey.strands, step)
+        self._stands_for = strands.stands_for * strands.count * survey.shortening(step)
+        self._light_shortening = survey.shortening(step * detail.stride) / survey.shortening(step)
         self._context = context
         self._programs = programs
         packed = pack(strands)
@@ -112,7 +114,7 @@ class StrandHair:
     def recolour(self, survey: StrandSurvey) -> None:
         """Show other colours on the same strands."""
         self.survey = survey
-        self._paint(every_second(survey.strands).colour if self.sparse else survey.strands.colour)
+        self._paint(thinned(survey.strands, 2 if self.sparse else 1).colour)
 
     def _paint(self, colour: Singles | None) -> None:
         self._textures.paint(colour)
@@ -121,6 +123,10 @@ class StrandHair:
     def widening(self, of: int) -> float:
         """How many times too thick the first ``of`` strands are drawn, to cover as much as all that they stand for."""
         return self._stands_for / max(of, 1)
+
+    def light_widening(self, of: int) -> float:
+        """The same for strands as the light sees them, which lose more of their length by the points that are left out."""
+        return self.widening(of) * self._light_shortening
 
     def look_from(self, view: View, frame: HeadFrame, height: int) -> None:
         """Choose how many strands are shaded and drawn in a picture ``height`` pixels high: so many that none is wider than
@@ -136,6 +142,7 @@ class StrandHair:
 
         ``light``: its view of all there is; that of the hair alone, which has finer texels, follows from it.
         """
+        size //= self.detail.coarseness
         if self.opacity is None or self.opacity.size != size:
             self.opacity = DeepOpacityMap(self._context, self._programs.opacity, size)
         pose = _pose(frame)
@@ -144,7 +151,7 @@ class StrandHair:
         lit_from = (view.clip_from_world.tobytes(), pose.tobytes(), size)
         if self._lit_from != lit_from:
             indices = int(self._light_ends[-1])
-            self.opacity.fill(self._light_strips, indices, self.widening(self._lit_by), pose, [view])
+            self.opacity.fill(self._light_strips, indices, self.light_widening(self._lit_by), pose, [view])
             self._hair_view, self._lit_from = view, lit_from
         from_light = view.clip_from_world @ np.linalg.inv(light.clip_from_world)
         with self._context.scope(maps.light, moderngl.NOTHING):
@@ -165,7 +172,9 @@ class StrandHair:
     def see_from_sky(self, sky_light: SkyLight) -> None:
         """Show the hair to the sky: as many of the strands, spread evenly over all, as it can look through."""
         strands = min(self.detail.sky_strands, self._lit_by)
-        sky_light.see_hair(self._light_strips, int(self._light_ends[strands]), self.widening(strands), self._sphere)
+        sky_light.see_hair(
+            self._light_strips, int(self._light_ends[strands]), self.light_widening(strands), self._sphere
+        )
 
     def take_soft_light(self, sky_light: SkyLight, sky: Sky, lost: Floats) -> None:
         """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
@@ -209,7 +218,7 @@ class StrandHair:
         fibre = material.fibre
         uniforms = {
             "shadow_map": 0, "light_map": 1, "points": 2, "tangents": 3, "hair_colours": 4,
-            "light_widening": self.widening(self._lit_by),
+            "light_widening": self.light_widening(self._lit_by),
             "light_points": int(self._first[self._lit_by]),
             "coloured": textures.colour is not None,
             "hair_absorption": material.absorption,

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import weakref
+from collections.abc import Callable
+
 import moderngl
 import numpy as np
 
@@ -9,6 +12,7 @@ from ..head.head import Head
 from ..scene.settings import Look
 from ..scene.stage import Stage
 from ..wisp.strands import Strands
+from .deep_opacity import OpacityPrograms
 from .fibre import Fibre, colour_absorption
 from .scene_block import linear, sky_and_ground
 from .skin_paint import coarse_faces
@@ -35,12 +39,9 @@ class StrandLayer:
         self._programs = StrandPrograms(context)
         self._sky_programs = SkyPrograms(context)
         self.hair: StrandHair | None = None
-        # The sky over a head, the hair that stands before it, and what the light in that hair was worked out from.
-        self._sky: SkyLight | None = None
-        self._sky_of: tuple[Head, StrandDetail] | None = None
-        self._body_lit: tuple[object, ...] | None = None
-        self._seen: StrandHair | None = None
-        self._lit: tuple[object, ...] | None = None
+        # The sky over the head that was drawn last, in every detail it was looked at: a draft and what follows it take
+        # turns.
+        self._skies: dict[StrandDetail, _HeadSky] = {}
 
     def pull(self, stage: Stage, look: Look, view: View, height: int, *, final: bool) -> StrandHair | None:
         """The strands to draw, sent again only where they are others; ``final``: all of them, in the finest detail."""
@@ -86,17 +87,40 @@ class StrandLayer:
 
     def _let_sky_in(self, strands: StrandHair, stage: Stage, look: Look) -> None:
         """Work out the soft light in the strands: again only for other strands, another sky or another kind of hair."""
-        material, skin = strand_material(look), stage.head.skin
-        if self._sky is None or self._sky_of != (stage.head, strands.detail):
-            faces = coarse_faces(skin, _BODY_DETAIL)
-            self._sky = SkyLight(
-                self._context, self._sky_programs, self._programs.opacity, skin.vertices, faces, strands.detail
+        if any(sky.head is not stage.head for sky in self._skies.values()):
+            self._skies.clear()
+        if strands.detail not in self._skies:
+            self._skies[strands.detail] = _HeadSky(
+                self._context, self._sky_programs, self._programs.opacity, stage.head, strands.detail
             )
-            self._sky_of = (stage.head, strands.detail)
-            self._seen = self._body_lit = None
-        if self._seen is not strands:
+        self._skies[strands.detail].light(strands, look)
+
+
+class _HeadSky:
+    """The sky over one head, the hair that stands before it, and what the light in that hair was worked out from."""
+
+    def __init__(
+        self,
+        context: moderngl.Context,
+        programs: SkyPrograms,
+        opacity: OpacityPrograms,
+        head: Head,
+        detail: StrandDetail,
+    ) -> None:
+        self.head = head
+        faces = coarse_faces(head.skin, _BODY_DETAIL)
+        self._sky = SkyLight(context, programs, opacity, head.skin.vertices, faces, detail)
+        self._body_lit: tuple[object, ...] | None = None
+        # Hair that is shown no more is not kept for this.
+        self._seen: Callable[[], StrandHair | None] = lambda: None
+        self._lit: tuple[object, ...] | None = None
+
+    def light(self, strands: StrandHair, look: Look) -> None:
+        """Let the sky of ``look`` into the strands."""
+        material, skin = strand_material(look), self.head.skin
+        if self._seen() is not strands:
             strands.see_from_sky(self._sky)
-            self._seen, self._lit = strands, None
+            self._seen, self._lit = weakref.ref(strands), None
         wanted = (strands.survey, look.ambient, look.skin_colour, material.absorption, look.strand_roughness)
         if self._lit == wanted:
             return

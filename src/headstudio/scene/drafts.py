@@ -7,7 +7,7 @@ from dataclasses import replace
 from .animation import needs
 from .document import Document
 
-DRAFT = 6000
+DRAFT = 4000
 """Strands of a draft."""
 
 

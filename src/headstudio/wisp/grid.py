@@ -15,6 +15,7 @@ Corners = NDArray[np.intp]
 
 # The eight corners of a cell, as steps along x, y and z.
 _STEPS = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+_ZERO = np.float32(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,12 +48,16 @@ class Grid:
 
     @cached_property
     def _origin(self) -> Singles:
-        return self.origin.astype(np.float32)
+        return self.origin.astype(np.float32)[:, None]
+
+    @cached_property
+    def _per_metre(self) -> np.float32:
+        return np.float32(1 / self.spacing)
 
     @cached_property
     def _last(self) -> Singles:
         """The last place of a cell's first corner, a hair below the last node but one."""
-        return (np.array(self.shape) - 1 - 1e-3).astype(np.float32)
+        return (np.array(self.shape) - 1 - 1e-3).astype(np.float32)[:, None]
 
     @cached_property
     def _strides(self) -> NDArray[np.float32]:
@@ -61,27 +66,29 @@ class Grid:
 
     @cached_property
     def _corner_numbers(self) -> Corners:
-        return (_STEPS @ self._strides).astype(np.intp)
+        return (_STEPS @ self._strides).astype(np.intp)[:, None]
 
     def cells(self, points: Floats | Singles) -> tuple[Corners, Singles]:
         """Numbers of the eight nodes around ``points`` [m], (k, 3): (8, k); and where in the cell they are, 0 to 1, (3, k).
 
         Points are counted along the last axis, so that numpy has long rows to work on.
         """
-        at = np.subtract(points.T, self._origin[:, None], dtype=np.float32)
-        at *= np.float32(1 / self.spacing)
-        np.maximum(at, 0, out=at)
-        np.minimum(at, self._last[:, None], out=at)
-        cell = at.astype(np.int32)
-        at -= cell
-        first = (cell[0] * np.intp(self.shape[1]) + cell[1]) * np.intp(self.shape[2]) + cell[2]
-        return first + self._corner_numbers[:, None], at
+        at = np.array(points.T, dtype=np.float32, order="C")
+        at -= self._origin
+        at *= self._per_metre
+        np.maximum(at, _ZERO, out=at)
+        np.minimum(at, self._last, out=at)
+        low = np.floor(at)
+        at -= low
+        x, y, z = low.astype(np.intp)
+        first = (x * self.shape[1] + y) * self.shape[2] + z
+        return first + self._corner_numbers, at
 
     def value(self, values: Singles, points: Floats | Singles) -> Singles:
         """``values`` at the nodes, (size,) or (size, d), at ``points`` [m], (k, 3): (k,) or (k, d)."""
         corners, at = self.cells(points)
         weights = corner_weights(at)
-        shared = values[corners]
+        shared = values.take(corners, axis=0)
         shared *= weights if values.ndim == 1 else weights[:, :, None]
         total: Singles = shared.sum(axis=0)
         return total
@@ -89,7 +96,7 @@ class Grid:
     def value_and_gradient(self, values: Singles, points: Floats | Singles) -> tuple[Singles, Singles]:
         """``values`` at the nodes, (size,), at ``points``, (k,), and their gradient there [1/m], (k, 3)."""
         corners, (x, y, z) = self.cells(points)
-        here = values[corners].reshape(2, 2, 2, -1)
+        here = values.take(corners).reshape(2, 2, 2, -1)
         along_x = here[1] - here[0]
         plane = here[0] + x * along_x
         along_y = plane[1] - plane[0]
@@ -100,7 +107,7 @@ class Grid:
         gradient[:, 0] = slope_x[0] + z * (slope_x[1] - slope_x[0])
         gradient[:, 1] = along_y[0] + z * (along_y[1] - along_y[0])
         gradient[:, 2] = along_z
-        gradient *= np.float32(1 / self.spacing)
+        gradient *= self._per_metre
         return line[0] + z * along_z, gradient
 
 

@@ -33,8 +33,9 @@ from .styling_settings import StylingSettings
 from .surroundings import Surroundings
 
 # Strands that are made in one go: what they need fits the processor's cache. Random numbers go with the block, so that
-# neither the number of threads nor that of strands changes a strand.
-_BLOCK = 8192
+# neither the number of threads nor that of strands changes a strand. A few blocks are made by halves, which are shared
+# evenly among processors; more of them are not, since each takes its look at all lengths.
+_BLOCK, _FEW_BLOCKS = 8192, 4
 _CLEARANCE = 0.0005  # of strands from the skin [m]
 
 MadeT = TypeVar("MadeT")
@@ -209,12 +210,13 @@ def _member_strands(
     lengths = distribution.sample(np.random.default_rng([wisp.seed, 4]).random(len(owner)))
     cuts = Cuts.of(masters, wisp.points)
     points = np.empty((len(owner), wisp.points, 3), dtype=np.float32)
+    piece = _BLOCK // 2 if len(owner) <= _FEW_BLOCKS * _BLOCK else _BLOCK
 
-    def grow(block: int) -> None:
-        here = slice(block * _BLOCK, (block + 1) * _BLOCK)
+    def grow(start: int) -> None:
+        here = slice(start, start + piece)
         own = owner[here]
         first = (roots[here] - masters.controls[own, 0]).T.astype(np.float32)
-        even = _even_numbers([wisp.seed, 5, block], len(own))
+        even = _even_numbers([wisp.seed, 5, start // _BLOCK], start % _BLOCK, len(own))
         offsets = displacements(masters.radii[own].T, first, wisp.fuzziness, even)
         grown = member_points(masters, cuts, own, offsets, lengths[here])
         # Last of all, since what is cut is drawn anew with straight ways between fewer places.
@@ -223,12 +225,22 @@ def _member_strands(
         points[here] = keep_chords_outside(surroundings, outside, _CLEARANCE)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(grow, range(-(-len(owner) // _BLOCK))))
+        list(pool.map(grow, range(0, len(owner), piece)))
     return points
 
 
-def _even_numbers(seed: list[int], count: int) -> Iterator[Singles]:
-    """Uniform random numbers below 1, (3, count), without end; the same for a strand however many come after it."""
-    rng = np.random.default_rng(seed)
+def _even_numbers(seed: list[int], start: int, count: int) -> Iterator[Singles]:
+    """Uniform random numbers below 1, (3, count), without end: those of the strands from ``start``, an even number, on in
+    their block. The same for a strand however many come after it.
+    """
+    bits = np.random.PCG64(seed)
+    rng = np.random.Generator(bits)
+    # One draw of 64 bits makes two of these numbers.
+    made = count + count % 2
     while True:
-        yield rng.random((3, _BLOCK), dtype=np.float32)[:, :count]
+        numbers = np.empty((3, made), dtype=np.float32)
+        for row in numbers:
+            bits.advance(start // 2)
+            rng.random(out=row, dtype=np.float32)
+            bits.advance((_BLOCK - start - made) // 2)
+        yield numbers[:, :count]

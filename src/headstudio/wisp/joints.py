@@ -43,7 +43,8 @@ def turn(frames: Floats, start: Floats, end: Floats) -> Floats:
     across = frames[:, :, 0]
     along_both = np.einsum("ij,ij->i", both, across) / np.where(opposite, 1.0, scale)
     turned = across - along_both[:, None] * both + 2.0 * np.einsum("ij,ij->i", start, across)[:, None] * end
-    turned = np.where(opposite[:, None], _half_turn(across, start), turned)
+    if opposite.any():
+        turned[opposite] = _half_turn(across[opposite], start[opposite])
     # Made square again: errors of rounding would double at every joint.
     first = unit(turned - np.einsum("ij,ij->i", turned, end)[:, None] * end, otherwise=turned)
     return np.stack([first, cross(end, first), end], axis=2)
@@ -76,8 +77,7 @@ def cross(one: Floats, other: Floats) -> Floats:
 def unit(vectors: Floats, otherwise: Floats) -> Floats:
     """``vectors``, (k, 3), of length 1; where one vanishes, ``otherwise``."""
     length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))[:, None]
-    scaled = vectors / np.maximum(length, 1e-9)
+    if length.min(initial=1.0) > 1e-9:
+        return vectors / length
     gone = length[:, 0] <= 1e-9
-    if gone.any():
-        scaled[gone] = otherwise[gone]
-    return scaled
+    return np.where(gone[:, None], otherwise, vectors / np.maximum(length, 1e-9))
