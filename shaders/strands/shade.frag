@@ -39,20 +39,6 @@ float own_count(float texels) {
     return texels < 1.0 ? 0.75 * texels : texels < 2.0 ? texels - 0.25 * texels * texels : 1.0;
 }
 
-// Strands one behind the other as a pile of plates (Stokes 1862), which pass on `forward` and send `back`: what a pile
-// without end sends back, and by what light grows less from strand to strand.
-void pile(vec3 forward, vec3 back, out vec3 endless, out vec3 passed) {
-    vec3 s = 1.0 + back * back - forward * forward;
-    endless = 2.0 * back / (s + sqrt(max(s * s - 4.0 * back * back, 0.0)));
-    passed = forward / (1.0 - back * endless);
-}
-
-// What comes back from a strand and `behind` others further in, less what comes back from itself.
-vec3 sent_back(vec3 back, vec3 endless, vec3 passed, float behind) {
-    vec3 both_ways = pow(passed, vec3(2.0 * (1.0 + behind)));
-    return max(endless * (1.0 - both_ways) / (1.0 - endless * endless * both_ways) - back, 0.0);
-}
-
 // Kajiya, Kay 1989: a cylinder that scatters evenly, and mirrors along a cone; scaled to send as much as a fibre does.
 vec3 kajiya_kay(float sin_in, float sin_out, vec3 colour, float mirrored) {
     float cos_in = sqrt(max(1.0 - sin_in * sin_in, 0.0)), cos_out = sqrt(max(1.0 - sin_out * sin_out, 0.0));
@@ -79,26 +65,25 @@ void main() {
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
 
     mat4x3 sent_in = albedo(sin_in, absorption), sent = albedo(sin_out, absorption);
-    vec3 endless, passed;
-    pile(sent_in[0], sent_in[1], endless, passed);
+    Pile pile_in = pile(sent_in[0], sent_in[1]), pile_out = pile(sent[0], sent[1]);
     float direct = exp(-crossed);
-    vec3 scattered = passing(sent_in[0], sent_in[1], crossed, behind) - direct;
+    vec3 scattered = passing(pile_in, crossed, behind) - direct;
 
     mat4x3 soft = soft_light(point.xyz);
     mat3 slope = mat3(soft[1], soft[2], soft[3]);
     vec3 level = soft[0] + slope * turned(-sin_out * along, -head_turn.xyz);
     vec3 aside = slope * turned(to_eye - along * sin_out, -head_turn.xyz);
 
+    // Of what strands behind a strand send back, it sends on what it sends forward.
     vec3 from_light, from_sky;
     if (fibre_model) {
         vec4 wider = vec4(min(crossed, 8.0) * variances.y);
         from_light = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)))
             + scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider))
-            + (direct + scattered) * sent_back(sent_in[1], endless, passed, behind)
+            + (direct + scattered) * sent_in[0] * sent_back_by(pile_in, behind)
                 * along_hair(sin_in, sin_out, vec4(0.0)).z * 0.5 * max(cos(phi), 0.0);
-        pile(sent[0], sent[1], endless, passed);
         from_sky = max(sent[0] * level + sent[2] * aside, 0.0) + max(sent[1] * level + sent[3] * aside, 0.0)
-            + sent_back(sent[1], endless, passed, behind) * max(level + 0.25 * pi * aside, 0.0);
+            + sent[0] * sent_back_by(pile_out, roundabout * behind) * max(level + 0.25 * pi * aside, 0.0);
     } else {
         vec3 colour = exp(-sqrt(absorption) * colour_slope);
         from_light = direct * kajiya_kay(sin_in, sin_out, colour, 0.05) + scattered * kajiya_kay(sin_in, sin_out, colour, 0.0);

@@ -99,7 +99,7 @@ def render_stated(strands: Path, heads: list[str], view: str | None, out: Path) 
     if view is None:
         raise ParameterError("strands need --view FILE.json, which states camera, light and hair")
     stated = read_view(Path(view))
-    scene = _scene(file_strands(strands), [_plain_mesh(head) for head in heads], stated)
+    scene = scene_of(file_strands(strands), [plain_mesh(head) for head in heads], stated)
     camera = perspective_view(np.array(stated.eye), np.array(stated.target), math.radians(stated.fov_degrees), 1.0)
     context = headless_context()
     with counting("drawing", 1) as bar:
@@ -114,7 +114,8 @@ def render_stated(strands: Path, heads: list[str], view: str | None, out: Path) 
         say(str(out))
 
 
-def _scene(strands: Strands, meshes: list[TriangleMesh], stated: StatedView) -> StrandScene:
+def scene_of(strands: Strands, meshes: list[TriangleMesh], stated: StatedView) -> StrandScene:
+    """The scene that a view states."""
     place = np.arange(len(strands.points)) - np.repeat(strands.first[:-1], strands.counts)
     along = place / np.repeat(strands.counts - 1, strands.counts)
     radius = stated.hair_radius_root + along * (stated.hair_radius_tip - stated.hair_radius_root)
@@ -131,7 +132,8 @@ def _scene(strands: Strands, meshes: list[TriangleMesh], stated: StatedView) -> 
     )
 
 
-def _plain_mesh(path: str) -> TriangleMesh:
+def plain_mesh(path: str) -> TriangleMesh:
+    """A mesh in a file, with one vertex at each place. Raises HeadError."""
     with working(f"reading {Path(path).name}"):
         soup = read_mesh(path)
         places, same = np.unique(soup.vertices, axis=0, return_inverse=True)

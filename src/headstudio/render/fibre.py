@@ -195,14 +195,12 @@ def sent_on(tables: FibreTables, absorption: Floats) -> tuple[Floats, Floats]:
     return forward, back
 
 
-def passed_on(forward: Floats, back: Floats) -> Floats:
-    """By what light grows less from strand to strand, (3,), of which each sends so much ``forward`` and ``back``.
-
-    Strands one behind the other are a pile of plates (Stokes 1862).
+def lost_in_strands(forward: Floats, back: Floats) -> Floats:
+    """By what light grows less for each strand on its way, (3,), of which each sends so much ``forward`` and ``back``: the
+    rate of Kubelka, Munk 1931, for light that goes straight on.
     """
-    s = 1 + back**2 - forward**2
-    endless = 2 * back / (s + np.sqrt(np.maximum(s**2 - 4 * back**2, 0.0)))
-    return forward / (1 - back * endless)
+    kept = np.maximum(1 - forward - back, 0.0)
+    return np.sqrt(kept * (kept + 2 * back))
 
 
 def _bravais(sin_out: Floats, index: float) -> Floats:

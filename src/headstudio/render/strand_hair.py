@@ -14,7 +14,7 @@ from ..head.mesh import Floats
 from ..wisp.strands import Singles
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
-from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, passed_on, sent_on
+from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, lost_in_strands, sent_on
 from .fibre_textures import FibreTextures
 from .light_volume import LightVolume, grid_around
 from .receivers import receive
@@ -191,7 +191,7 @@ class StrandHair:
 
     def lost(self, material: StrandMaterial) -> Floats:
         """Of soft light that meets a strand, the part that does not go on, RGB, in the mean over the hair."""
-        return 1.0 - passed_on(*self.sent_on(material))
+        return lost_in_strands(*self.sent_on(material))
 
     def sunlit(self, places: Floats, maps: LightTargets, sent: tuple[Floats, Floats]) -> Floats:
         """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3), between the strands and by

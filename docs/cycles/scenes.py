@@ -1,0 +1,101 @@
+"""Writes the scenes that are measured against Cycles: scenes.py SINTEL OUT (see README.md)."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from headstudio.commands.hair_sources import file_strands
+from headstudio.params import assign
+from headstudio.scene.builder import Builder
+from headstudio.scene.document import Document
+from headstudio.scene.styles import load_style
+from headstudio.wisp.strands import Strands
+
+Scene = dict[str, Any]
+
+STRANDS = 15_000
+STYLES = ("bob", "tight-curls", "wavy-lob")
+
+# The three views that others were given of this hair, in metres and watts.
+SINTEL: Scene = {
+    "target": [0.0, 1.47, 0.0], "fov_degrees": 30.0, "size": 512, "samples": 64,
+    "hair_melanin": 0.75, "hair_redness": 0.5, "hair_roughness": 0.3,
+    "hair_radius_root": 0.0003, "hair_radius_tip": 0.0001,
+    "sun_strength": 2.5, "ambient": 0.25, "skin_rgb": [0.6, 0.38, 0.3],
+}  # fmt: skip
+VIEWS: dict[str, Scene] = {
+    "front": {"eye": [0.22, 1.52, 0.85], "sun_direction": [0.5, 0.8, 0.6]},
+    "side": {"eye": [-0.85, 1.5, 0.1], "sun_direction": [-0.6, 0.8, 0.4]},
+    "back": {"eye": [0.25, 1.58, -0.85], "sun_direction": [0.5, 0.8, -0.5]},
+}
+WHITE: Scene = {"hair_melanin": 0.02, "hair_redness": 0.0}
+HARD: Scene = {"ambient": 0.0, "sun_strength": 4.0}
+SMALL: Scene = {"size": 256, "samples": 40}
+
+
+def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
+    """All scenes by name."""
+    head = [str(sintel / name) for name in ("sintel.obj", "sintel-eyes.obj")]
+    given = {**SINTEL, "head": head, "strands": str(out / "sintel.npz")}
+    views = {name: {**given, **view} for name, view in VIEWS.items()}
+    front, side, back = ({**view, **SMALL} for view in views.values())
+    ours = {
+        **front, "head": [str(out / "head.obj")], "target": [0.0, 0.07, 0.0],
+        "hair_radius_root": 0.00025, "hair_radius_tip": 0.0001,
+    }  # fmt: skip
+    bob, curls, lob = ({**ours, "strands": str(out / f"{style}.npz")} for style in STYLES)
+    curls |= {"target": [0.0, 0.03, 0.0], "fov_degrees": 36.0}
+    behind = {"sun_direction": [0.2, 0.5, -0.9], "sun_strength": 4.0, "ambient": 0.1}
+    return {
+        **views,
+        "white-hard-side": {**side, **WHITE, **HARD},
+        "white-side": {**side, **WHITE},
+        "blond-front": {**front, "hair_melanin": 0.3, "hair_redness": 0.3},
+        "blond-behind": {**front, "hair_melanin": 0.3, "hair_redness": 0.3, **behind},
+        "black-side": {**side, "hair_melanin": 0.98, "hair_redness": 0.2},
+        "red-back": {**back, "hair_melanin": 0.55, "hair_redness": 1.0},
+        "red-close": {**side, "hair_melanin": 0.5, "hair_redness": 1.0, "fov_degrees": 12.0, "target": [0, 1.52, -0.02]},
+        "bob-brown": {**bob, "eye": [0.45, 0.12, 0.75]},
+        "bob-white-hard": {**bob, **WHITE, **HARD, "eye": [-0.85, 0.1, 0.1]},
+        "curls-black": {**curls, "eye": [0.2, 0.15, -1.0], "hair_melanin": 0.95, "hair_redness": 0.2},
+        "curls-blond": {**curls, "eye": [0.7, 0.1, 0.75], "hair_melanin": 0.25, "hair_redness": 0.5},
+        # Seen only after the light was as it is.
+        "lob-auburn": {
+            **lob, "eye": [-0.5, 0.2, 0.75], "target": [0.0, 0.02, 0.0], "fov_degrees": 34.0, "hair_melanin": 0.65,
+            "hair_redness": 0.8, "sun_direction": [0.9, 0.3, 0.5], "sun_strength": 3.5, "ambient": 0.15,
+        },
+        "sintel-right": {
+            **front, "eye": [0.7, 1.65, -0.45], "hair_melanin": 0.4, "hair_redness": 0.1,
+            "sun_direction": [0.7, 0.2, 0.3], "sun_strength": 2.0, "ambient": 0.4,
+        },
+    }  # fmt: skip
+
+
+def write_strands(strands: Strands, path: Path) -> None:
+    """Points and counts, for a program that reads nothing else."""
+    np.savez(path, points=strands.points, counts=strands.counts)
+
+
+def main(sintel: Path, out: Path) -> None:
+    """Write everything into ``out``."""
+    out.mkdir(parents=True, exist_ok=True)
+    write_strands(file_strands(sintel / "SintelHairOriginal-sintel_hair.16points.tfx"), out / "sintel.npz")
+    builder = Builder()
+    for style in STYLES:
+        document = assign(load_style(style).on(Document()), {"wisp.strands": STRANDS})
+        write_strands(builder.hairdo(document).strands, out / f"{style}.npz")
+    skin = builder.head(Document().head).skin
+    lines = ["v {:.6f} {:.6f} {:.6f}".format(*vertex) for vertex in skin.vertices]
+    lines += ["f {} {} {}".format(*(face + 1)) for face in skin.faces]
+    (out / "head.obj").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    for name, scene in scenes(sintel, out).items():
+        (out / f"{name}.json").write_text(json.dumps(scene, indent=1), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]))
