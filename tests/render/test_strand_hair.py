@@ -68,8 +68,8 @@ class TestStrips:
 
     def test_every_segment_is_drawn_once(self) -> None:
         first = pack(self.strands).first
-        whole, ends = strip_indices(first, 3)
-        assert (np.flatnonzero(whole == 0xFFFFFFFF) + 1 == ends[1:]).all()
+        whole = strip_indices(first, 3)
+        assert (np.flatnonzero(whole == 0xFFFFFFFF) + 1 == 2 * first[1:4] + [1, 2, 3]).all()
         assert (whole[whole != 0xFFFFFFFF] == np.arange(24)).all()
         pieces, amid, of_strands = piece_indices(first, 3)
         drawn = {
@@ -85,8 +85,9 @@ class TestStrips:
     def test_coarser_strips_keep_roots_and_tips(self) -> None:
         strands = Strands(np.zeros((12, 3), np.float32), np.array([0, 2, 9, 12]))
         first = np.asarray(strands.first)
-        coarse, ends = strip_indices(first, 3, stride=4)
-        points = [(part[:-1:2] // 2).tolist() for part in np.split(coarse, ends[1:-1])]
+        coarse = strip_indices(first, 3, stride=4)
+        ends = np.flatnonzero(coarse == 0xFFFFFFFF) + 1
+        points = [(part[:-1:2] // 2).tolist() for part in np.split(coarse, ends[:-1])]
         assert points == [[0, 1], [2, 6, 8], [9, 11]]
 
     def test_fewer_strands_are_a_sample_of_all(self) -> None:
@@ -312,6 +313,17 @@ class TestOnStage:
         assert renderer._strands.hair.sparse
         assert thinned(strands, 2).counts.tolist() == [9] * 200
         np.testing.assert_array_equal(thinned(strands, 2).points[8::9], strands.points[16::17])
+
+    def test_what_is_left_out_is_counted_in(self) -> None:
+        along = np.linspace(0.0, 1.0, 17)
+        helix = np.stack([np.cos(2 * np.pi * along), np.sin(2 * np.pi * along), 0 * along], axis=1)
+        curl = StrandSurvey(Strands(helix.astype(np.float32), np.array([0, 17])))
+        # Chords of a circle: 16 of them against 4.
+        assert curl.shortening(4) == pytest.approx(16 * np.sin(np.pi / 16) / (4 * np.sin(np.pi / 4)), rel=1e-5)
+        assert curl.straight_for == 2
+        straight = StrandSurvey(Strands(np.outer(along, [0.0, 0.0, 0.1]).astype(np.float32), np.array([0, 17])))
+        assert straight.shortening(8) == pytest.approx(1.0)
+        assert straight.straight_for == 8
 
     def test_final_picture_stops(self, renderer: Renderer, egg: Head) -> None:
         done: list[int] = []

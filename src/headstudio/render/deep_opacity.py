@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from ..head.mesh import Floats
 from .context import load_program, set_uniforms
@@ -29,24 +30,33 @@ class OpacityPrograms:
 
 
 class LightStrips:
-    """Strands as strips for the two programs of deep opacity maps: the first ``indices`` of an index buffer."""
+    """Some of the strands as strips for the two programs of deep opacity maps."""
 
     def __init__(
-        self, context: moderngl.Context, programs: OpacityPrograms, textures: StrandTextures, strips: moderngl.Buffer
+        self,
+        context: moderngl.Context,
+        programs: OpacityPrograms,
+        textures: StrandTextures,
+        indices: NDArray[np.uint32],
+        widening: float,
     ) -> None:
+        """widening: how many times too thick they are to be taken, to stand for all strands."""
+        self.widening = widening
         self._programs = programs
         self._textures = textures
+        self._count = len(indices)
+        strips = context.buffer(indices)
         self._depth, self._layers = (
             context.vertex_array(program, [], strips) for program in (programs.depth, programs.layers)
         )
 
-    def draw(self, layers: bool, indices: int, **uniforms: object) -> None:
+    def draw(self, layers: bool, **uniforms: object) -> None:
         """Draw into the framebuffer in use: into the layers, or the depth of the first strand alone."""
         self._textures.points.use(0)
         self._textures.tangents.use(1)
         program, array = (self._programs.layers, self._layers) if layers else (self._programs.depth, self._depth)
-        set_uniforms(program, points=0, tangents=1, **uniforms)
-        array.render(moderngl.TRIANGLE_STRIP, vertices=indices)
+        set_uniforms(program, points=0, tangents=1, widening=self.widening, **uniforms)
+        array.render(moderngl.TRIANGLE_STRIP, vertices=self._count)
 
 
 class DeepOpacityMap:
@@ -67,11 +77,10 @@ class DeepOpacityMap:
         self._counts_target = context.framebuffer([self.near_counts, self.far_counts])
         self._depths: dict[str, object] = {}
 
-    def fill(self, strips: LightStrips, indices: int, widening: float, pose: Floats, lights: list[View]) -> None:
+    def fill(self, strips: LightStrips, pose: Floats, lights: list[View]) -> None:
         """Draw the strands as the lights see them, which look at boxes of the same size.
 
-        indices: how many of the strips. widening: how many times too thick the strands are to be taken, when there are
-        fewer. pose: world from head, 4 x 4.
+        pose: world from head, 4 x 4.
         """
         box = lights[0].far
         depths = LAYER_DEPTHS / box
@@ -80,7 +89,7 @@ class DeepOpacityMap:
             self._front_target.clear(depth=1.0)
             for tile, light in enumerate(lights):
                 self._look_at(self._front_target, tile)
-                self._draw(strips, False, indices, widening, light.clip_from_world @ pose, box)
+                self._draw(strips, False, light.clip_from_world @ pose, box)
             _whole(self._front_target)
         with self._context.scope(self._counts_target, moderngl.BLEND):
             self._context.blend_func = moderngl.ONE, moderngl.ONE
@@ -88,7 +97,7 @@ class DeepOpacityMap:
             self.front.use(2)
             for tile, light in enumerate(lights):
                 self._look_at(self._counts_target, tile)
-                self._draw(strips, True, indices, widening, light.clip_from_world @ pose, box)
+                self._draw(strips, True, light.clip_from_world @ pose, box)
             _whole(self._counts_target)
 
     def bind(self, first_unit: int) -> dict[str, object]:
@@ -101,11 +110,9 @@ class DeepOpacityMap:
         corner = (tile % self.tiles * self.size, tile // self.tiles * self.size)
         target.viewport = target.scissor = (*corner, self.size, self.size)
 
-    def _draw(
-        self, strips: LightStrips, layers: bool, indices: int, widening: float, matrix: Floats, box: float
-    ) -> None:
+    def _draw(self, strips: LightStrips, layers: bool, matrix: Floats, box: float) -> None:
         strips.draw(
-            layers, indices, widening=widening, map_from_head=tuple(matrix.T.ravel()), size=float(self.size),
+            layers, map_from_head=tuple(matrix.T.ravel()), size=float(self.size),
             texels_per_metre=self.size / box, front=2, **self._depths,
         )  # fmt: skip
 

@@ -10,6 +10,7 @@ import numpy as np
 from ..head.mesh import Floats, Ints
 from ..wisp.strands import Singles
 from .context import release
+from .view import bounds_of
 
 MOST_NODES = 600_000
 
@@ -33,11 +34,13 @@ class Grid:
 
 def grid_around(points: Singles, finest: float) -> Grid:
     """The grid around points of hair [m], (p, 3), its nodes ``finest`` [m] apart where that is not too many."""
-    low, high = points.min(axis=0).astype(float), points.max(axis=0).astype(float)
+    low, high = bounds_of(points)
     spacing = max(finest, float(np.cbrt(np.prod(high - low + finest) / MOST_NODES)))
-    cells = ((points - low.astype(np.float32)) * np.float32(1 / spacing)).astype(np.int32)
-    nx, ny, nz = (int(n) for n in cells.max(axis=0) + 2)
-    flat = cells[:, 0] + nx * (cells[:, 1] + ny * cells[:, 2])
+    nx, ny, nz = (int(np.float32(span) * np.float32(1 / spacing)) + 2 for span in np.float32(high) - np.float32(low))
+    flat = np.zeros(len(points), np.int32)
+    for k, nodes in ((2, 1), (1, ny), (0, nx)):
+        flat *= nodes
+        flat += ((points[:, k] - np.float32(low[k])) * np.float32(1 / spacing)).astype(np.int32)
     used = np.zeros(nx * ny * nz, bool)
     used[flat] = True
     cell = np.flatnonzero(used)

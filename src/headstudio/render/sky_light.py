@@ -91,11 +91,11 @@ class SkyLight:
         ]
         self._frames.write(np.array([[view.right, view.up, -view.forward] for view in self._views], np.float32))
 
-    def see_hair(self, strips: LightStrips, indices: int, widening: float, sphere: Sphere) -> None:
+    def see_hair(self, strips: LightStrips, sphere: Sphere) -> None:
         """Look at the hair, which lies within a sphere, from everywhere."""
         self._hair_sphere = sphere
         lights = [parallel_view(direction, sphere.centre, sphere.radius) for direction in self._directions]
-        self._hair.fill(strips, indices, widening, np.eye(4), lights)
+        self._hair.fill(strips, np.eye(4), lights)
 
     def see_body(self, radiance: Floats) -> None:
         """Look at the body from everywhere; ``radiance`` of every vertex, linear RGB, (n, 3)."""

@@ -15,6 +15,7 @@ from .view import Sphere, View, bounding_sphere
 _SAMPLE = 20_000  # of the points of strands whose bends are measured
 _MOST = 80  # percent
 _STRANDS = 500  # whose lengths are measured
+_STEPS, _SHORTENED = (1, 2, 4, 8), 1.02
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,8 @@ class StrandDetail:
     """strand_pixels: strands are left out, and the others drawn wider, as long as these are no wider than so many pixels;
     0 leaves none out. bend_pixels: every second point of the strands is left out where most bend by no more than so many
     pixels from there to the next. sun_strands, sky_strands: how many strands, a fair sample of all, are drawn into the map
-    of the light and into those of the sky. stride: of their points only every so many. coarseness: texels of the
+    of the light and into those of the sky. stride: of their points only every so many, and for the sky as few as they are
+    straight. coarseness: texels of the
     map of the light are so many times as large as those of other shadows. pairs: of opposite directions that
     stand for the sky. spacing: of the nodes where soft light is worked out [m], where the hair is not too
     large for it.
@@ -92,7 +94,8 @@ class StrandSurvey:
         """How far most points lie beside the straight line between their neighbours [m]."""
         points = self.strands.points
         inner = np.arange(1, len(points) - 1, max(len(points) // _SAMPLE, 1))
-        ends = np.isin(inner, self.strands.first) | np.isin(inner + 1, self.strands.first)
+        first = self.strands.first
+        ends = (first[np.searchsorted(first, inner)] == inner) | (first[np.searchsorted(first, inner + 1)] == inner + 1)
         inner = inner[~ends]
         aside = points[inner] - 0.5 * (points[inner - 1] + points[inner + 1])
         return float(np.percentile(np.linalg.norm(aside, axis=1), _MOST)) if len(inner) else 0.0
@@ -106,6 +109,11 @@ class StrandSurvey:
         sample = Strands(self.strands.points[kept], first)
         drawn = float(thinned(sample, step).lengths.sum())
         return float(sample.lengths.sum()) / drawn if drawn > 0 else 1.0
+
+    @cached_property
+    def straight_for(self) -> int:
+        """So many points go on about as straight that to leave out all but one of them shortens no strand by much."""
+        return max(step for step in _STEPS if step == 1 or self.shortening(step) < _SHORTENED)
 
     @cached_property
     def width(self) -> float:

@@ -21,7 +21,7 @@ from .receivers import receive
 from .screen import ScreenPasses
 from .sky_light import Sky, SkyLight
 from .strand_detail import StrandDetail, StrandSurvey, thinned
-from .strand_points import POINT_ROW, StrandTextures, pack, piece_indices, strip_indices
+from .strand_points import POINT_ROW, PackedStrands, StrandTextures, pack, piece_indices, strip_indices
 from .targets import LightTargets
 from .view import View, parallel_view
 
@@ -77,7 +77,6 @@ class StrandHair:
         step = 2 if sparse else 1
         strands = thinned(survey.strands, step)
         self._stands_for = strands.stands_for * strands.count * survey.shortening(step)
-        self._light_shortening = survey.shortening(step * detail.stride) / survey.shortening(step)
         self._context = context
         self._programs = programs
         packed = pack(strands)
@@ -88,9 +87,10 @@ class StrandHair:
         self.reach = float(np.linalg.norm(self._sphere.centre)) + self._sphere.radius
         """Strands reach no farther from the origin of the head frame than this [m]."""
         self._lit_by = min(detail.sun_strands, self.shown)
-        indices, self._light_ends = strip_indices(packed.first, self._lit_by, detail.stride)
-        strips = context.buffer(indices)
-        self._light_strips = LightStrips(context, programs.opacity, self._textures, strips)
+        self._for_sun = self._light_strips(packed, self._lit_by, step, detail.stride)
+        # The sky sees hair from afar: what is straight needs few points.
+        stride = max(detail.stride, survey.straight_for // step)
+        self._for_sky = self._light_strips(packed, min(detail.sky_strands, self._lit_by), step, stride)
         self._pieces, amid, self._piece_ends = piece_indices(packed.first, self.shown)
         self._amid = packed.points[amid, :3]
         self._sorted = context.buffer(reserve=max(self._pieces.nbytes, 4))
@@ -118,15 +118,20 @@ class StrandHair:
 
     def _paint(self, colour: Singles | None) -> None:
         self._textures.paint(colour)
-        self._mean_colour = None if colour is None else colour.mean(axis=0, dtype=float)
+        self._mean_colour = None if colour is None else np.array([part.mean(dtype=float) for part in colour.T])
 
     def widening(self, of: int) -> float:
         """How many times too thick the first ``of`` strands are drawn, to cover as much as all that they stand for."""
         return self._stands_for / max(of, 1)
 
-    def light_widening(self, of: int) -> float:
-        """The same for strands as the light sees them, which lose more of their length by the points that are left out."""
-        return self.widening(of) * self._light_shortening
+    def _light_strips(self, packed: PackedStrands, strands: int, step: int, stride: int) -> LightStrips:
+        """The first ``strands`` with every ``stride``-th point, of those that are every ``step``-th of all."""
+        indices = strip_indices(packed.first, strands, stride)
+        # They lose more of their length than what is drawn.
+        shortening = self.survey.shortening(step * stride) / self.survey.shortening(step)
+        return LightStrips(
+            self._context, self._programs.opacity, self._textures, indices, self.widening(strands) * shortening
+        )
 
     def look_from(self, view: View, frame: HeadFrame, height: int) -> None:
         """Choose how many strands are shaded and drawn in a picture ``height`` pixels high: so many that none is wider than
@@ -150,8 +155,7 @@ class StrandHair:
         view = parallel_view(-light.forward, centre, self._sphere.radius)
         lit_from = (view.clip_from_world.tobytes(), pose.tobytes(), size)
         if self._lit_from != lit_from:
-            indices = int(self._light_ends[-1])
-            self.opacity.fill(self._light_strips, indices, self.light_widening(self._lit_by), pose, [view])
+            self.opacity.fill(self._for_sun, pose, [view])
             self._hair_view, self._lit_from = view, lit_from
         from_light = view.clip_from_world @ np.linalg.inv(light.clip_from_world)
         with self._context.scope(maps.light, moderngl.NOTHING):
@@ -171,10 +175,7 @@ class StrandHair:
 
     def see_from_sky(self, sky_light: SkyLight) -> None:
         """Show the hair to the sky: as many of the strands, spread evenly over all, as it can look through."""
-        strands = min(self.detail.sky_strands, self._lit_by)
-        sky_light.see_hair(
-            self._light_strips, int(self._light_ends[strands]), self.light_widening(strands), self._sphere
-        )
+        sky_light.see_hair(self._for_sky, self._sphere)
 
     def take_soft_light(self, sky_light: SkyLight, sky: Sky, lost: Floats) -> None:
         """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
@@ -218,7 +219,7 @@ class StrandHair:
         fibre = material.fibre
         uniforms = {
             "shadow_map": 0, "light_map": 1, "points": 2, "tangents": 3, "hair_colours": 4,
-            "light_widening": self.light_widening(self._lit_by),
+            "light_widening": self._for_sun.widening,
             "light_points": int(self._first[self._lit_by]),
             "coloured": textures.colour is not None,
             "hair_absorption": material.absorption,

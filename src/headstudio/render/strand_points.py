@@ -57,11 +57,11 @@ def pack(strands: Strands) -> PackedStrands:
     first = np.concatenate([[0], np.cumsum(counts)])
     source = np.repeat(strands.first[order] - first[:-1], counts) + np.arange(first[-1])
     points = np.empty((len(source), 4), np.float32)
-    points[:, :3] = strands.points[source]
-    points[:, 3] = _default_radius(first) if strands.radius is None else strands.radius[source]
-    place = points[:, :3]
+    place = strands.points.take(source, axis=0)
+    points[:, :3] = place
+    points[:, 3] = _default_radius(first) if strands.radius is None else strands.radius.take(source)
     tangents = np.empty((len(source), 3), np.float32)
-    tangents[1:-1] = place[2:] - place[:-2]
+    np.subtract(place[2:], place[:-2], out=tangents[1:-1])
     start, end = first[:-1], first[1:] - 1
     tangents[start] = place[start + 1] - place[start]
     tangents[end] = place[end] - place[end - 1]
@@ -69,9 +69,8 @@ def pack(strands: Strands) -> PackedStrands:
     return PackedStrands(points, tangents, first, source)
 
 
-def strip_indices(first: NDArray[np.int64], shown: int, stride: int = 1) -> tuple[NDArray[np.uint32], Ints]:
-    """The first ``shown`` strands as triangle strips: two vertices for every point, a restart after every strand; and how
-    many indices the first 0, 1, 2 ... strands take, (shown + 1,).
+def strip_indices(first: NDArray[np.int64], shown: int, stride: int = 1) -> NDArray[np.uint32]:
+    """The first ``shown`` strands as triangle strips: two vertices for every point, a restart after every strand.
 
     stride: only every so many points, and the tip.
     """
@@ -82,7 +81,7 @@ def strip_indices(first: NDArray[np.int64], shown: int, stride: int = 1) -> tupl
     point = np.minimum(first[strand] + stride * (place // 2), first[strand + 1] - 1)
     strips = (2 * point + place % 2).astype(np.uint32)
     strips[ends[1:] - 1] = _RESTART
-    return strips, ends
+    return strips
 
 
 def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint32], Ints, Ints]:
@@ -97,7 +96,9 @@ def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint
     start = np.repeat(first[:shown], pieces) + PIECE * which
     last = np.repeat(first[1 : shown + 1] - 1, pieces)
     strips = np.full((len(start), 2 * PIECE + 3), _RESTART, np.uint32)
-    strips[:, :-1] = np.minimum(2 * start[:, None] + np.arange(2 * PIECE + 2), 2 * last[:, None] + 1)
+    vertex, end = (2 * start).astype(np.uint32), (2 * last + 1).astype(np.uint32)
+    for k in range(2 * PIECE + 2):
+        np.minimum(vertex + np.uint32(k), end, out=strips[:, k])
     return strips, np.minimum(start + PIECE // 2, last), np.concatenate([[0], np.cumsum(pieces)])
 
 
@@ -119,7 +120,7 @@ class StrandTextures:
         self.colour = None
         if colour is not None:
             # Colours need no more than half floats.
-            self.colour = self._texture(self._context, colour[self._source].astype(np.float16), "f2")
+            self.colour = self._texture(self._context, colour.astype(np.float16).take(self._source, axis=0), "f2")
 
     def _texture(self, context: moderngl.Context, values: NDArray[np.floating], kind: str = "f4") -> moderngl.Texture:
         parts = values.shape[1]
