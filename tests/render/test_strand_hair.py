@@ -320,7 +320,7 @@ class TestOnStage:
         curl = StrandSurvey(Strands(helix.astype(np.float32), np.array([0, 17])))
         # Chords of a circle: 16 of them against 4.
         assert curl.shortening(4) == pytest.approx(16 * np.sin(np.pi / 16) / (4 * np.sin(np.pi / 4)), rel=1e-5)
-        assert curl.straight_for == 2
+        assert curl.straight_for == 1
         straight = StrandSurvey(Strands(np.outer(along, [0.0, 0.0, 0.1]).astype(np.float32), np.array([0, 17])))
         assert straight.shortening(8) == pytest.approx(1.0)
         assert straight.straight_for == 8

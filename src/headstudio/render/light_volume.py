@@ -36,7 +36,9 @@ def grid_around(points: Singles, finest: float) -> Grid:
     """The grid around points of hair [m], (p, 3), its nodes ``finest`` [m] apart where that is not too many."""
     low, high = bounds_of(points)
     spacing = max(finest, float(np.cbrt(np.prod(high - low + finest) / MOST_NODES)))
-    nx, ny, nz = (int(np.float32(span) * np.float32(1 / spacing)) + 2 for span in np.float32(high) - np.float32(low))
+    nx, ny, nz = (
+        int((np.float32(b) - np.float32(a)) * np.float32(1 / spacing)) + 2 for a, b in zip(low, high, strict=True)
+    )
     flat = np.zeros(len(points), np.int32)
     for k, nodes in ((2, 1), (1, ny), (0, nx)):
         flat *= nodes

@@ -15,7 +15,7 @@ from .view import Sphere, View, bounding_sphere
 _SAMPLE = 20_000  # of the points of strands whose bends are measured
 _MOST = 80  # percent
 _STRANDS = 500  # whose lengths are measured
-_STEPS, _SHORTENED = (1, 2, 4, 8), 1.02
+_STEPS, _SHORTENED = (1, 2, 4, 8), 1.002
 
 
 @dataclass(frozen=True)
