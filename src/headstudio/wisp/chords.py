@@ -8,46 +8,48 @@ from ..head.mesh import Ints
 from .strands import Singles
 from .surroundings import Surroundings
 
-_PARTS = (0.0, 0.25, 0.5, 0.75, 1.0)  # where on a chord its depth is taken
-_CLEARANCE = 0.0008  # of chords from the skin, which is as uncertain between nodes at the rim of an ear [m]
-_ROUNDS = 10
+_PARTS = (0.2, 0.5, 0.8)  # where on a chord its depth is taken
+_CLEARANCE = 0.0006  # of chords from the skin, which is as uncertain at the rim of an ear [m]
+_ROUNDS = 8
 
 
 def keep_chords_outside(surroundings: Surroundings, strands: Singles, margin: float) -> Singles:
-    """``strands`` [m], float32, (S, n, 3), with points of chords that cut a thin part of the body moved out of it.
+    """``strands`` [m], float32, (S, n, 3), with points of chords that cut an ear moved out of it.
 
     Strands are changed in place, and returned. A chord that is too deep is moved as a whole, straight out, the more at
     the end that is nearer to where it is deepest. Points have the last word: no nearer to the skin than ``margin`` [m].
     """
     points = strands.reshape(-1, 3)
     chords = _near_chords(surroundings, strands)
-    moved = np.zeros(len(points), dtype=bool)
+    moved = chords[:0]
     for _ in range(_ROUNDS):
-        if len(chords) == 0:
-            break
         start, end = points[chords], points[chords + 1]
         between = np.stack([(1 - t) * start + t * end for t in _PARTS])
-        distance, outward = surroundings.distance_and_gradient(between.reshape(-1, 3))
-        deepest = distance.reshape(len(_PARTS), -1).argmin(axis=0)
-        at = deepest * len(chords) + np.arange(len(chords))
-        too_deep = distance[at] < _CLEARANCE
-        chords, at, part = chords[too_deep], at[too_deep], np.array(_PARTS, dtype=np.float32)[deepest[too_deep]]
-        moved[chords] = moved[chords + 1] = True
+        depth = surroundings.distance(between.reshape(-1, 3)).reshape(len(_PARTS), -1)
+        deepest = depth.argmin(axis=0)
+        too_deep = np.flatnonzero(depth[deepest, np.arange(len(chords))] < _CLEARANCE)
+        if len(too_deep) == 0:
+            break
+        chords, deepest = chords[too_deep], deepest[too_deep]
+        distance, outward = surroundings.distance_and_gradient(between[deepest, too_deep])
+        part = np.array(_PARTS, dtype=np.float32)[deepest]
         # The least move of both ends that takes the place between them out.
-        by = (_CLEARANCE - distance[at]) / ((1 - part) ** 2 + part**2)
-        np.add.at(points, chords, ((1 - part) * by)[:, None] * outward[at])
-        np.add.at(points, chords + 1, (part * by)[:, None] * outward[at])
-    points[moved] = surroundings.keep_outside(points[moved], margin)
+        by = (_CLEARANCE - distance) / ((1 - part) ** 2 + part**2)
+        np.add.at(points, chords, ((1 - part) * by)[:, None] * outward)
+        np.add.at(points, chords + 1, (part * by)[:, None] * outward)
+        moved = np.concatenate([moved, chords])
+    touched = np.unique(np.concatenate([moved, moved + 1]))
+    points[touched] = surroundings.keep_outside(points[touched], margin)
     return strands
 
 
 def _near_chords(surroundings: Surroundings, strands: Singles) -> Ints:
-    """Chords that may be too deep in a thin part of the body, as the number of the point that each starts from, (k,)."""
+    """Chords that may be too deep in an ear, as the number of the point that each starts from, (k,)."""
     count = strands.shape[1]
     # Every other point tells for its neighbours.
-    thin = surroundings.beside_thin_parts[surroundings.nearest_nodes(strands[:, ::2])]
+    ears = surroundings.beside_ears[surroundings.nearest_nodes(strands[:, ::2])]
     before = np.arange(count - 1) // 2
-    strand, place = np.nonzero(thin[:, before] | thin[:, np.minimum(before + 1, thin.shape[1] - 1)])
+    strand, place = np.nonzero(ears[:, before] | ears[:, np.minimum(before + 1, ears.shape[1] - 1)])
     chords = strand * count + place
     points = strands.reshape(-1, 3)
     start, end = points.take(chords, axis=0), points.take(chords + 1, axis=0)

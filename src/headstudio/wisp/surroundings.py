@@ -15,6 +15,7 @@ from ..head.head import Head
 from ..head.locate import Locator
 from ..head.mesh import Floats, TriangleMesh
 from ..head.sampling import sample_surface
+from .ears import at_ears
 from .grid import Grid
 from .proportions import Proportions
 from .strands import Singles
@@ -23,8 +24,7 @@ _VOXEL = 0.0035  # of the signed distances [m]
 _BAND = 2.0  # how far from the skin distances are exact, in voxels
 _MARGIN = 0.02  # of the grid around the body [m]
 _FOLD = 0.014  # radius of the ball that does not get into a fold of the face [m]
-_BLUNT = 0.020  # what a ball of this radius gets into is not thin [m]
-_BESIDE = 0.013  # how far from a thin part is still near: as far as points of a strand are apart [m]
+_BESIDE = 0.009  # a straight way from farther off the skin than this to the next point does not cut an ear [m]
 _REACH = 0.32  # how far hair may stand off the body or hang below the bust [m]
 
 
@@ -104,14 +104,10 @@ class Surroundings:
         return self._near_tables[margin]
 
     @cached_property
-    def beside_thin_parts(self) -> NDArray[np.bool_]:
-        """Per node of the skin's grid: whether a thin part of the body is near, as ears are, (size,)."""
-        grid = self.skin_grid
-        depth = -self.distances.reshape(grid.shape)
-        # What a ball that rolls inside the body does not get into.
-        unreached = ndimage.distance_transform_edt(depth < _BLUNT) * grid.spacing - _BLUNT
-        thin = (depth >= 0) & (unreached > 0.25 * grid.spacing)
-        near: NDArray[np.bool_] = ndimage.maximum_filter(thin, 2 * round(_BESIDE / grid.spacing) + 1).ravel()
+    def beside_ears(self) -> NDArray[np.bool_]:
+        """Per node of the skin's grid: whether a strand that has a point there may cut an ear, (size,)."""
+        near = self.distances < _BESIDE
+        near[near] = at_ears(self.proportions.measure(self.skin_grid.nodes[near]))
         return near
 
     @cached_property
