@@ -73,9 +73,11 @@ def accessory_mesh(accessory: object, surroundings: Surroundings) -> TriangleMes
 @accessory_mesh.register
 def _band(band: Band, surroundings: Surroundings) -> TriangleMesh:
     angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)
-    # A half circle around the skull from ear to ear that leans forward as it rises.
+    # A half circle around the skull that leans forward as it rises, and passes behind the ears where it ends.
     rise = np.cos(angle)
-    places = np.stack([1.05 * np.sin(angle), 1.1 * rise - 0.25 * (1 - rise), band.lean * rise], axis=1)
+    places = np.stack(
+        [1.05 * np.sin(angle), 1.1 * rise - 0.65 * (1 - rise), band.lean * rise - 0.6 * (1 - rise)], axis=1
+    )
     path = at_height(surroundings, along_skin(surroundings, places, band.lift), band.lift)
     # A band is stiff: it goes in one bow over what lies under it.
     path = gaussian_filter1d(path, _BAND_BOW / STEP, axis=0, mode="nearest")
@@ -108,7 +110,7 @@ def _ribbon(ribbon: Ribbon, surroundings: Surroundings) -> TriangleMesh:
         turn = np.linspace(0.0, 2 * np.pi, 33)
         # A loop seen from the edge is a drop lying on its side; its cloth is wide outside and gathered in the knot.
         across = sign * size * 0.5 * (1 - np.cos(turn))
-        high = 0.16 * size * np.sin(turn)
+        high = 0.3 * size * np.sin(turn)
         droop = -0.18 * size * 0.5 * (1 - np.cos(turn))
         loop = middle + across[:, None] * side + high[:, None] * away + droop[:, None] * up
         normal = np.cos(turn)[:, None] * away - sign * np.sin(turn)[:, None] * side
