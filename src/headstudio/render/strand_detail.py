@@ -24,10 +24,9 @@ class StrandDetail:
     0 leaves none out. bend_pixels: every second point of the strands is left out where most bend by no more than so many
     pixels from there to the next. sun_strands, sky_strands: how many strands, a fair sample of all, are drawn into the map
     of the light and into those of the sky. stride: of their points only every so many, and for the sky as few as they are
-    straight. coarseness: texels of the
-    map of the light are so many times as large as those of other shadows. pairs: of opposite directions that
-    stand for the sky. spacing: of the nodes where soft light is worked out [m], where the hair is not too
-    large for it.
+    straight. coarseness: texels of the map of the light are so many times as large as those of other shadows. pairs: of
+    opposite directions that stand for the sky. spacing: of the nodes where soft light is worked out [m], where the hair is
+    not too large for it.
     """
 
     strand_pixels: float

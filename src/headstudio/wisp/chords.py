@@ -35,8 +35,8 @@ def keep_chords_outside(surroundings: Surroundings, strands: Singles, margin: fl
         part = np.array(_PARTS, dtype=np.float32)[deepest]
         # The least move of both ends that takes the place between them out.
         by = (_CLEARANCE - distance) / ((1 - part) ** 2 + part**2)
-        np.add.at(points, chords, ((1 - part) * by)[:, None] * outward)
-        np.add.at(points, chords + 1, (part * by)[:, None] * outward)
+        points[chords] += ((1 - part) * by)[:, None] * outward
+        points[chords + 1] += (part * by)[:, None] * outward
         moved = np.concatenate([moved, chords])
     touched = np.unique(np.concatenate([moved, moved + 1]))
     points[touched] = surroundings.keep_outside(points[touched], margin)

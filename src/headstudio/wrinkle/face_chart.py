@@ -16,6 +16,7 @@ from scipy.interpolate import RBFInterpolator
 from ..head.head import Head
 from ..head.locate import Locator
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot
 from .bezier import BezierChain, fit_stroke
 from .furrow import Furrow
 from .one_to_one import signed_areas
@@ -142,7 +143,7 @@ class FaceChart:
         angle = rolled[:, 0] / self._radius
         outward = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1)
         starts = self._axis_at(rolled[:, 1]) + _OUTSIDE * outward
-        away = np.einsum("ij,ij->i", starts - middle, outward)
+        away = row_dot(starts - middle, outward)
         behind = self._skin.first_hit(starts, -outward) < away - _BEFORE
         return behind | (signed_areas(self._rolled(mesh.vertices)[mesh.faces]) <= 0)
 
@@ -168,8 +169,8 @@ def _sampled(chain: BezierChain, metres: float) -> Floats:
 
 def _between(points: Floats, counts: Ints) -> Floats:
     """Points on a line, (k, 2), with so many steps between each two and the next, (k - 1,)."""
-    place = np.repeat(np.arange(len(counts)), counts) + np.concatenate([np.arange(n) / n for n in counts])
-    place = np.append(place, len(counts))
+    # The line is passed at one step a unit, and each step of it in so many.
+    place = np.interp(np.arange(counts.sum() + 1), np.append(0, np.cumsum(counts)), np.arange(len(points)))
     return np.stack([np.interp(place, np.arange(len(points)), points[:, k]) for k in (0, 1)], axis=1)
 
 

@@ -17,6 +17,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from ..head.mesh import Floats, Ints, TriangleMesh
+from ..head.rows import row_dot, row_length
 from .projection import border_cycles
 
 # The least stretch that a triangle is brought to, and with which it counts as unfolded.
@@ -31,8 +32,8 @@ def unfolded(mesh: TriangleMesh, places: Floats, hidden: NDArray[np.bool_]) -> F
     """Places in the plane [m], (n, 2), with no triangle turned over.
 
     places: of the vertices where they were projected [m], (n, 2). hidden: the triangles that are turned over or that others
-    lie in front of, (m,). Where
-    it does not come to that in some rounds, as at the rim of a nostril, single triangles stay turned over.
+    lie in front of, (m,). Where it does not come to that in some rounds, as at the rim of a nostril, single triangles stay
+    turned over.
     """
     if not hidden.any():
         return places
@@ -90,10 +91,10 @@ def _gradients(vertices: Floats, faces: Ints) -> tuple[sparse.csr_array, Floats]
     """What takes values at vertices, (n,), to their slopes along two axes in the plane of every triangle, first all along
     the one and then all along the other, (2 m, n); and the area of triangles [m^2], (m,)."""
     first, second = (vertices[faces[:, k]] - vertices[faces[:, 0]] for k in (1, 2))
-    length = np.linalg.norm(first, axis=1)
+    length = row_length(first)
     along = first / length[:, None]
-    height = np.linalg.norm(np.cross(along, second), axis=1)
-    aside = np.einsum("ij,ij->i", along, second)
+    height = row_length(np.cross(along, second))
+    aside = row_dot(along, second)
     # Slopes of the corners' shares: they add up to nothing.
     of_second = np.stack([np.zeros_like(height), 1.0 / height])
     of_first = np.stack([1.0 / length, -aside / (length * height)])
