@@ -6,10 +6,10 @@ import numpy as np
 
 from headstudio.head.head import Head
 from headstudio.head.load import load_head
+from headstudio.head.rows import row_unit
 from headstudio.head.scalp import Scalp, grow_scalp
 from headstudio.head.scalp_settings import ScalpSettings
 from headstudio.wisp.deform import deform
-from headstudio.wisp.joints import unit
 from headstudio.wisp.outlines import Outlines
 from headstudio.wisp.styling_settings import StylingSettings
 from headstudio.wisp.surroundings import Surroundings
@@ -26,7 +26,7 @@ def hair(scalp: Scalp, wisps: int = 300, length: float = 0.3, segment: float = 0
     """Straight outlines of equal length on random roots, leaning away from the whorl; 100,000 strands in all."""
     uv = scalp.random_points(wisps, np.random.default_rng(seed))
     along = scalp.root_directions(uv, 1.0, 1.0)
-    across = unit(np.cross(along, np.eye(3)[np.abs(along).argmin(axis=1)]), otherwise=along)
+    across = row_unit(np.cross(along, np.eye(3)[np.abs(along).argmin(axis=1)]), otherwise=along)
     frame = np.stack([across, np.cross(along, across), along], axis=2)
     joints = round(length / segment)
     return Outlines(

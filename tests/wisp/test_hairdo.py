@@ -8,7 +8,7 @@ import pytest
 from headstudio.head.depth import SkinDepth
 from headstudio.head.frame import HeadFrame
 from headstudio.head.scalp_settings import GrayImage
-from headstudio.wisp import hairdo as hairdo_module
+from headstudio.wisp import growth
 from headstudio.wisp.facial_hair import facial_patches
 from headstudio.wisp.hairdo import Stylist
 from headstudio.wisp.joining import join_strands
@@ -55,7 +55,7 @@ def test_the_same_settings_give_the_same_hair_and_another_seed_another(whole):
 
 
 def test_the_number_of_threads_changes_nothing(whole, monkeypatch):
-    monkeypatch.setattr(hairdo_module.os, "cpu_count", lambda: 1)
+    monkeypatch.setattr(growth.os, "cpu_count", lambda: 1)
     np.testing.assert_array_equal(style().strands.points, whole.strands.points)
 
 

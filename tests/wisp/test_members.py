@@ -17,10 +17,8 @@ PROFILES = {
 }
 
 
-def even(seed: int = 1, strands: int = STRANDS):
-    rng = np.random.default_rng(seed)
-    while True:
-        yield rng.random((3, strands), dtype=np.float32)
+def even(steps: int, seed: int = 1) -> np.ndarray:
+    return np.random.default_rng(seed).random((steps, 3, STRANDS), dtype=np.float32)
 
 
 def inside(radius: float, strands: int = STRANDS) -> np.ndarray:
@@ -34,7 +32,7 @@ def inside(radius: float, strands: int = STRANDS) -> np.ndarray:
 @pytest.mark.parametrize("sigma", [0.0, 0.1, 1.0])
 def test_members_stay_within_the_deviation_radius_at_every_control_point(profile, sigma):
     radii = np.repeat(PROFILES[profile].astype(np.float32)[:, None], STRANDS, axis=1)
-    moved = displacements(radii, inside(radii[0, 0]), sigma, even())
+    moved = displacements(radii, inside(radii[0, 0]), sigma, even(len(radii) - 1))
     assert np.isfinite(moved).all()
     assert (np.linalg.norm(moved, axis=0) <= radii * (1 + 1e-5)).all()
 
@@ -42,13 +40,13 @@ def test_members_stay_within_the_deviation_radius_at_every_control_point(profile
 def test_without_fuzziness_members_are_similar_to_the_master():
     radii = np.repeat(PROFILES["tapering"].astype(np.float32)[:, None], STRANDS, axis=1)
     first = inside(0.01)
-    moved = displacements(radii, first, 0.0, even())
+    moved = displacements(radii, first, 0.0, even(len(radii) - 1))
     np.testing.assert_allclose(moved, first[:, None] * (radii / radii[0]), rtol=1e-4, atol=1e-9)
 
 
 def test_after_a_pinch_growth_starts_again_from_noise():
     radii = np.repeat(PROFILES["pinched to a point"].astype(np.float32)[:, None], STRANDS, axis=1)
-    length = np.linalg.norm(displacements(radii, inside(0.01), 0.5, even()), axis=0)
+    length = np.linalg.norm(displacements(radii, inside(0.01), 0.5, even(len(radii) - 1)), axis=0)
     assert length[2].max() == length[3].max() == 0
     assert length[4].mean() == pytest.approx(0.25 * radii[4, 0], rel=0.1)
 
@@ -56,7 +54,7 @@ def test_after_a_pinch_growth_starts_again_from_noise():
 def test_the_noise_is_even_up_to_sigma_r_for_a_member_on_its_master():
     """Step 2 of section 2.1: from the middle the sphere is at r in all directions, so y is even in [0, sigma r]."""
     radii = np.full((2, STRANDS), 0.01, dtype=np.float32)
-    noise = displacements(radii, np.zeros((3, STRANDS), dtype=np.float32), 0.6, even())[:, 1]
+    noise = displacements(radii, np.zeros((3, STRANDS), dtype=np.float32), 0.6, even(len(radii) - 1))[:, 1]
     size = np.sort(np.linalg.norm(noise, axis=0))
     np.testing.assert_allclose(size, 0.006 * (np.arange(STRANDS) + 0.5) / STRANDS, atol=2e-4)
     assert np.abs((noise / np.linalg.norm(noise, axis=0)).mean(axis=1)).max() < 0.05
@@ -65,7 +63,7 @@ def test_the_noise_is_even_up_to_sigma_r_for_a_member_on_its_master():
 def test_members_gather_less_at_the_border_than_if_they_were_clamped_to_it():
     radii = np.full((40, STRANDS), 0.01, dtype=np.float32)
     first = inside(0.01)
-    bounded = np.linalg.norm(displacements(radii, first, 1.0, even())[:, -1], axis=0)
+    bounded = np.linalg.norm(displacements(radii, first, 1.0, even(len(radii) - 1))[:, -1], axis=0)
     clamped = first.T.copy()
     rng = np.random.default_rng(1)
     for _ in range(39):

@@ -19,7 +19,6 @@ NOTES = {
     "wisps": "Spreading the wisps",
     "flow": "Letting the hair flow",
     "strands": "Growing the strands",
-    "collisions": "Lifting strands off the head",
     "colour": "Colouring the hair",
     "face": "Placing the muscles of the face",
     "furrows": "Refining the skin around its furrows",

@@ -26,3 +26,9 @@ def in_columns(a: Floats) -> Floats:
 def row_length(a: Floats) -> Floats:
     """|a_i| of vectors (n, k), (n,)."""
     return np.sqrt(row_dot(a, a))
+
+
+def row_unit(vectors: Floats, otherwise: Floats) -> Floats:
+    """``vectors``, (n, 3), of length 1; where one vanishes, ``otherwise``."""
+    length = row_length(vectors)[:, None]
+    return np.where(length <= 1e-9, otherwise, vectors / np.maximum(length, 1e-9))

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from ..head.mesh import Floats, TriangleMesh
+from ..head.rows import row_unit
 from ..params import colour, number
-from .joints import unit
 from .operations import Place
 from .paths import STEP, along_skin, at_height, off_skin, outward, sideways
 from .surroundings import Surroundings
@@ -129,14 +129,14 @@ def _ribbon(ribbon: Ribbon, surroundings: Surroundings) -> TriangleMesh:
 @accessory_mesh.register
 def _hair_tie(tie: HairTie, surroundings: Surroundings) -> TriangleMesh:
     middle, away = _on_hair(surroundings, tie.place, tie.radius)
-    axis = unit((np.array(tie.direction) * surroundings.proportions.extent)[None], otherwise=away[None])[0]
+    axis = row_unit((np.array(tie.direction) * surroundings.proportions.extent)[None], otherwise=away[None])[0]
     return ring(middle, axis, tie.radius, tie.thickness)
 
 
 def ring(middle: Floats, axis: Floats, radius: float, thickness: float) -> TriangleMesh:
     """A ring of ``thickness`` around ``middle``, (3,), square to ``axis``, (3,), with ``radius``, all [m]."""
     least = np.eye(3)[np.abs(axis).argmin()]
-    side = unit(np.cross(axis, least)[None], otherwise=least[None])[0]
+    side = row_unit(np.cross(axis, least)[None], otherwise=least[None])[0]
     turn = np.linspace(0.0, 2 * np.pi, 49)[:-1, None]
     return closed_tube(middle + radius * (np.cos(turn) * side + np.sin(turn) * np.cross(axis, side)), 0.5 * thickness)
 
@@ -150,4 +150,4 @@ def _on_hair(surroundings: Surroundings, place: Place, lift: float) -> tuple[Flo
 def _along_skin(direction: Floats, away: Floats) -> Floats:
     """The unit direction along the skin that is nearest to ``direction``, (3,)."""
     along = direction - (direction @ away) * away
-    return unit(along[None], otherwise=np.cross(away, np.eye(3)[np.abs(away).argmin()])[None])[0]
+    return row_unit(along[None], otherwise=np.cross(away, np.eye(3)[np.abs(away).argmin()])[None])[0]

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats
+from ..head.rows import row_unit
 from .ears import before_ears
-from .joints import unit
 from .surroundings import Surroundings
 
 LANE = 0.5  # part of the tolerance that lanes take up
@@ -103,7 +103,7 @@ class PointConstraint:
         distance = np.linalg.norm(way, axis=1)
         segments = distance / joint.segment
         urgency = (1.0 + joint.stiffness) * (_TAUT + _NEAR / np.maximum(segments, 0.5) ** 2)
-        toward = unit(way, otherwise=np.broadcast_to([0.0, -1.0, 0.0], way.shape))
+        toward = row_unit(way, otherwise=np.broadcast_to([0.0, -1.0, 0.0], way.shape))
         outward = np.broadcast_to([0.0, -1.0, 0.0], way.shape)
         if self.surroundings is not None:
             over, outward = _over_scalp(self.surroundings, ends, toward)
@@ -133,10 +133,10 @@ def _over_scalp(surroundings: Surroundings, ends: Floats, toward: Floats) -> tup
     """
     distance, outward = surroundings.distance_and_gradient(ends)
     blocked = np.clip(-np.einsum("ij,ij->i", toward, outward), 0.0, 1.0) * (distance < _BESIDE_SKIN)
-    from_face = unit(ends - surroundings.proportions.place(_FACE), otherwise=toward)
+    from_face = row_unit(ends - surroundings.proportions.place(_FACE), otherwise=toward)
     rise = before_ears(surroundings.proportions.measure(ends)) * (toward[:, 2] < 0)
     over = toward + blocked[:, None] * from_face + _RISE * rise[:, None] * np.array([0.0, 1.0, 0.0])
-    return unit(over, otherwise=toward), outward.astype(np.float64)
+    return row_unit(over, otherwise=toward), outward.astype(np.float64)
 
 
 def _bowed(toward: Floats, outward: Floats, segments: Floats, slack: float) -> Floats:
@@ -156,7 +156,9 @@ def _bowed(toward: Floats, outward: Floats, segments: Floats, slack: float) -> F
     off = np.clip(0.5 * (count - 1.0) * angle, 0.0, 1.3)[:, None]
     least = np.eye(3)[np.abs(toward).argmin(axis=1)]
     free = outward - np.einsum("ij,ij->i", outward, toward)[:, None] * toward
-    return np.cos(off) * toward + np.sin(off) * unit(free, otherwise=unit(np.cross(toward, least), otherwise=least))
+    return np.cos(off) * toward + np.sin(off) * row_unit(
+        free, otherwise=row_unit(np.cross(toward, least), otherwise=least)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +179,7 @@ class _Path:
     def tangents(self) -> Floats:
         """Unit tangents at the samples, (m, 3)."""
         slope = np.gradient(self.samples, axis=0)
-        return unit(slope, otherwise=np.broadcast_to([0.0, -1.0, 0.0], slope.shape))
+        return row_unit(slope, otherwise=np.broadcast_to([0.0, -1.0, 0.0], slope.shape))
 
     def nearest(self, places: Floats, within: float = 0.0) -> NDArray[np.int64]:
         """The sample nearest to each place [m], (k,); of samples that are farther by no more than ``within`` [m] the first."""
@@ -220,7 +222,7 @@ class TrajectoryConstraint:
         goal = self.path.samples[np.minimum(progress.along + ahead, len(self.path.samples) - 1)]
         way = goal + self._offset(lanes) - ends
         astray = np.minimum(self._off(ends, lanes, progress.along) / self.tolerance, 1.0)
-        psi = ((1.0 + joint.stiffness) * (_TAUT + _ASTRAY * astray))[:, None] * unit(
+        psi = ((1.0 + joint.stiffness) * (_TAUT + _ASTRAY * astray))[:, None] * row_unit(
             way, otherwise=self.path.tangents[progress.along]
         )
         return Pull(psi, np.full(len(ends), self.weight), np.full(len(ends), np.inf))

@@ -105,7 +105,7 @@ def _let_down(flow: Flow, uv: Floats, tau: float) -> None:
     are in the other turn, and at the next joint everybody sees everything.
     """
     turns = _turns(uv)
-    for _ in range(flow.frames.shape[1]):
+    for _ in range(flow.outlines.frames.shape[1]):
         for turn in turns:
             wisps = flow.unfinished(turn)
             flow.lay(wisps, flow.styling_force(wisps), np.full(len(wisps), tau))

@@ -53,24 +53,26 @@ class DensityField:
         """rho, (k,), and its gradient [1/m], (k, 3), at ``points`` [m], (k, 3)."""
         density, slope = self.grid.value_and_gradient(self.hair, points)
         distance, outward = self.surroundings.distance_and_gradient(points)
-        head = np.clip(1.0 - distance / _SKIN_DEPTH, 0.0, 1.0)
-        edge = np.float32(-1 / _SKIN_DEPTH) * (distance < _SKIN_DEPTH)
-        slope += edge[:, None].astype(np.float32) * outward
-        return density + head, slope
+        near = np.flatnonzero(distance < _SKIN_DEPTH)
+        if len(near):
+            density[near] += np.minimum(1 - distance[near] / np.float32(_SKIN_DEPTH), 1)
+            slope.T[:, near] -= outward.T[:, near] / np.float32(_SKIN_DEPTH)
+        return density, slope
 
     def added(self, amounts: Floats) -> Floats:
         """rho_Delta of eq. 6: what segments of ``amounts`` strand-metres would add in their own middle, (k,)."""
         return _SELF * self.unit * amounts
 
     def add(self, middles: Floats, across: Floats, radii: Floats, amounts: Floats) -> None:
-        """Add segments: their middles [m], (k, 3), two directions across each, (k, 2, 3), radii of their wisps [m], (k,),
+        """Add segments: their middles [m], (3, k), two directions across each, (3, 2, k), radii of their wisps [m], (k,),
         and amounts of hair [strand-metres], (k,); negative amounts take hair away again.
 
         A wisp is spread as four points of a cross, whose second moment is that of a disc of its radius.
         """
-        offset = np.sqrt(0.5) * radii[:, None, None] * across
-        points = np.concatenate([middles[:, None] + offset, middles[:, None] - offset], axis=1)
-        corners, place = self.grid.cells(points.reshape(-1, 3))
-        share = np.repeat((0.25 * self.unit * amounts).astype(np.float32), 4) * corner_weights(place)
+        offset = np.sqrt(0.5) * radii * across
+        middle = middles[:, None]
+        points = np.concatenate([middle + offset, middle - offset], axis=1)
+        corners, place = self.grid.cells(points.reshape(3, -1).T)
+        share = np.tile((0.25 * self.unit * amounts).astype(np.float32), 4) * corner_weights(place)
         # numpy 2 adds at so few nodes faster than a count over the grid, which looks at every node for every joint.
         np.add.at(self.hair, corners.ravel(), share.ravel())

@@ -19,9 +19,13 @@ _LOWEST, _HIGHEST = np.array([0.85, -1.0, -0.5]), np.array([1.7, 0.15, 0.35])
 
 def at_ears(places: Floats) -> NDArray[np.bool_]:
     """Whether hair at ``places``, in proportions of the head, (k, 3), may lie on an ear, (k,)."""
-    aside = np.concatenate([np.abs(places[:, :1]), places[:, 1:]], axis=1)
-    inside = (aside > _LOWEST) & (aside < _HIGHEST)
-    return inside[:, 0] & inside[:, 1] & inside[:, 2]
+    x, y, z = places.T
+    inside = np.abs(x) > _LOWEST[0]
+    inside &= np.abs(x) < _HIGHEST[0]
+    for along, low, high in ((y, _LOWEST[1], _HIGHEST[1]), (z, _LOWEST[2], _HIGHEST[2])):
+        inside &= along > low
+        inside &= along < high
+    return inside
 
 
 def before_ears(places: Floats) -> Floats:

@@ -22,7 +22,7 @@ _SPACING = 0.02
 
 @dataclass(frozen=True, eq=False)
 class ForceField:
-    """Vectors at the nodes of a grid, (size, 3), looked up trilinearly."""
+    """Vectors at the nodes of a grid, a column each, (3, size), looked up trilinearly."""
 
     grid: Grid
     vectors: Singles
@@ -46,7 +46,7 @@ def force_field(styling: StylingSettings, surroundings: Surroundings) -> ForceFi
         total += styling.off_shoulders * _off_shoulders(places, grid, surroundings)
     if styling.strokes:
         total = follow_strokes(total, grid, styling.strokes, surroundings.proportions, styling.stroke_reach)
-    return ForceField(grid, total.astype(np.float32))
+    return ForceField(grid, np.ascontiguousarray(total.T, dtype=np.float32))
 
 
 def _along(places: Floats, x: float, y: float, z: float) -> Floats:

@@ -1,4 +1,8 @@
-"""Laying hair down segment by segment: the inner part of Choe, Ko 2005, Algorithm 1."""
+"""Laying hair down segment by segment: the inner part of Choe, Ko 2005, Algorithm 1.
+
+Some hundreds of wisps get a segment at a time, so what is done costs little beside asking for it: inside, vectors are
+columns, (3, k), and frames two of their axes, across the hair and along it.
+"""
 
 from __future__ import annotations
 
@@ -9,15 +13,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..head.mesh import Floats, Ints
+from .columns import cross, dot, unit
 from .density import DensityField
 from .ears import at_ears
 from .field import ForceField
-from .joints import bend_toward, joint_stiffness, most_aligned, turn, unit
+from .joints import bend_toward, joint_stiffness, most_aligned, turn
 from .outlines import Outlines
 
 _BEND = math.radians(12)  # Delta theta of Algorithm 1
 _BENDS = 4  # so many before the least dense direction is taken
 _SLIDES = 2  # corrections of a segment that would run into the head
+_SLACK = 1e-4  # so near to its clearance it needs no further correction [m]
 
 # How firmly a root holds on to the way it grows along the skin, against a force of 1 along it that opposes its growth; a
 # force across it counts for a part only, and one that goes its way not at all.
@@ -42,32 +48,43 @@ class Tally:
 class Flow:
     """Hair that is being laid: every wisp has a current end, which a segment is added to.
 
-    frames: of all segments laid so far, as Outlines.frames. laid: how many segments each wisp has got, (W,).
-    ends: current ends [m], (W, 3). stiffness: kappa of eq. 5 for segments of this length.
+    outlines: at rest, which is straight: all segments of a wisp have the frame of its first. laid: how many segments each
+    wisp has got, (W,). stiffness: kappa of eq. 5 for segments of this length.
     """
 
     def __init__(self, outlines: Outlines, density: DensityField, force: ForceField, kappa: float, tau: float) -> None:
+        count, joints = outlines.frames.shape[:2]
         self.outlines = outlines
-        self.frames = outlines.frames.copy()
-        self.laid = np.zeros(len(outlines.counts), dtype=np.int64)
-        self.ends = outlines.roots.copy()
+        self.laid = np.zeros(count, dtype=np.int64)
         self.tally = Tally()
-        self._widest: Floats = np.full(outlines.radii.shape, np.inf)
-        self._turned = np.broadcast_to(np.eye(3), (len(self.laid), 3, 3)).copy()
+        self.stiffness = joint_stiffness(kappa, outlines.segment)
         self._density = density
         self._force = force
         self._tau = tau
-        self.stiffness = joint_stiffness(kappa, outlines.segment)
+        self._widest: Floats = np.full(outlines.radii.shape, np.inf)
         self._amounts = (outlines.strands * outlines.segment).astype(np.float64)
+        # By joint and wisp, in one row: what the j-th joint of wisp w has is in place j W + w.
+        self._radii = np.ascontiguousarray(outlines.radii.T).ravel()
+        self._clearances = np.minimum(_CLEARANCE + _RADIUS_PART * self._radii, _MOST_CLEARANCE)
+        self._across, self._along = np.empty((3, joints * count)), np.empty((3, joints * count))
+        self._ends = np.empty((3, count))
+        # The frame of the next segment if nothing bent it, (3, W) each.
+        self._next_across, self._next_along = np.empty((3, count)), np.empty((3, count))
+        self._back_to_roots(np.arange(count))
 
     def copy(self) -> Flow:
         """The same hair, laid as far, to go on with on its own."""
         other = copy.copy(self)
-        for name in ("frames", "laid", "ends", "_widest", "_turned"):
+        for name in ("laid", "_widest", "_across", "_along", "_ends", "_next_across", "_next_along"):
             setattr(other, name, getattr(self, name).copy())
         other.tally = replace(self.tally)
         other._density = replace(self._density, hair=self._density.hair.copy())
         return other
+
+    @property
+    def ends(self) -> Floats:
+        """Current ends [m], (W, 3)."""
+        return self._ends.T
 
     def unfinished(self, wisps: Ints) -> Ints:
         """Those of ``wisps`` that have segments left to lay."""
@@ -76,49 +93,60 @@ class Flow:
     def pick_up(self, wisps: Ints) -> None:
         """Take whole wisps back to their roots, and their hair out of the density field."""
         longest = int(self.laid[wisps].max(initial=0))
-        ends = self.outlines.roots[wisps]
+        ends = self.outlines.roots.T.copy()
         for joint in range(longest):
-            there = self.laid[wisps] > joint
-            frames = self.frames[wisps[there], joint]
-            middles = ends[there] + 0.5 * self.outlines.segment * frames[:, :, 2]
-            self._add(wisps[there], joint, middles, frames, -1.0)
-            ends[there] += self.outlines.segment * frames[:, :, 2]
+            there = wisps[self.laid[wisps] > joint]
+            place = joint * len(self.laid) + there
+            across, step = self._across[:, place], self.outlines.segment * self._along[:, place]
+            self._add(there, place, ends[:, there] + 0.5 * step, across, self._along[:, place], -1.0)
+            ends[:, there] += step
+        self._back_to_roots(wisps)
+
+    def _back_to_roots(self, wisps: Ints) -> None:
         self.laid[wisps] = 0
         self._widest[wisps] = np.inf
-        self.ends[wisps] = self.outlines.roots[wisps]
-        self._turned[wisps] = np.eye(3)
+        self._ends[:, wisps] = self.outlines.roots[wisps].T
+        self._next_across[:, wisps], self._next_along[:, wisps] = (
+            self.outlines.frames[wisps, 0, :, k].T for k in (0, 2)
+        )
 
     def styling_force(self, wisps: Ints) -> Floats:
         """Phi at the ends of ``wisps``, (k, 3); beside a parting, as it is well on their side of it."""
-        aside = self.outlines.aside
-        felt = self.ends[wisps] if aside is None else self.ends[wisps] + aside[wisps]
+        felt = self._ends.take(wisps, axis=1).T
+        if self.outlines.aside is not None:
+            felt += self.outlines.aside.take(wisps, axis=0)
         return self._force.at(felt).astype(np.float64)
 
     def lay(self, wisps: Ints, force: Floats, ceiling: Floats) -> None:
         """Add one segment to each of ``wisps``, (k,), under ``force``, (k, 3); it collides above ``ceiling``, (k,)."""
-        joint = self.laid[wisps]
-        start = self.ends[wisps]
-        rest = self.outlines.frames[wisps, joint]
-        carried = self._turned[wisps] @ rest
+        joint = self.laid.take(wisps)
+        place = joint * len(self.laid) + wisps
+        start, across, straight = (
+            each.take(wisps, axis=1) for each in (self._ends, self._next_across, self._next_along)
+        )
+        pull = force.T
         rooted = np.flatnonzero(joint == 0)
         if len(rooted):
-            carried[rooted] = self._combed(start[rooted], carried[rooted], force[rooted])
-        straight = carried[:, :, 2]
-        clearance = self._clearance(wisps, joint)
-        wanted = most_aligned(force, straight, self.stiffness)
+            combed = self._combed(start[:, rooted], straight[:, rooted], pull[:, rooted])
+            across[:, rooted] = turn(across[:, rooted], straight[:, rooted], combed)
+            straight[:, rooted] = combed
+        clearance = self._clearances.take(place + len(self.laid))
+        wanted = most_aligned(pull, straight, self.stiffness)
         direction = self._slide(start, wanted, clearance)
         # The first segment stands in the head's own density, and cannot leave it.
         free = np.where(joint == 0, np.inf, ceiling - self._density.added(self._amounts[wisps]))
         direction = self._make_room(start, direction, clearance, free)
-        frames = turn(carried, straight, direction)
-        self.frames[wisps, joint] = frames
+        turned = turn(across, straight, direction)
+        self._across[:, place], self._along[:, place] = turned, direction
+        step = self.outlines.segment * direction
+        self._add(wisps, place, start + 0.5 * step, turned, direction, 1.0)
+        self._ends[:, wisps] = start + step
         # An ear lifts hair as long as it lies on it, and does not throw it outward: what it bends springs back.
-        lifted = np.flatnonzero(at_ears(self._density.surroundings.proportions.measure(start)))
-        sprung = frames.copy()
-        sprung[lifted] = turn(carried[lifted], straight[lifted], wanted[lifted])
-        self._turned[wisps] = sprung @ rest.transpose(0, 2, 1)
-        self.ends[wisps] = start + self.outlines.segment * direction
-        self._add(wisps, joint, start + 0.5 * self.outlines.segment * direction, frames, 1.0)
+        lifted = np.flatnonzero(at_ears(self._density.surroundings.proportions.measure(start.T)))
+        if len(lifted):
+            direction[:, lifted] = wanted[:, lifted]
+            turned[:, lifted] = turn(across[:, lifted], straight[:, lifted], wanted[:, lifted])
+        self._next_across[:, wisps], self._next_along[:, wisps] = turned, direction
         self.laid[wisps] += 1
         self.tally.laid += len(wisps)
 
@@ -132,8 +160,12 @@ class Flow:
 
     def result(self) -> Outlines:
         """The outlines as they are laid, with the padding behind every tip continuing the last segment."""
-        last = np.minimum(np.arange(self.frames.shape[1]), self.outlines.counts[:, None] - 1)
-        frames = np.take_along_axis(self.frames, last[:, :, None, None], axis=1)
+        count, joints = self.outlines.frames.shape[:2]
+        last = np.minimum(np.arange(joints), self.outlines.counts[:, None] - 1)
+        place = (last * count + np.arange(count)[:, None]).ravel()
+        across, along = self._across[:, place], self._along[:, place]
+        frames = np.stack([across, cross(along, across), along], axis=1).T.reshape(count, joints, 3, 3)
+        frames = np.ascontiguousarray(frames.swapaxes(2, 3))
         return replace(self.outlines, frames=frames, radii=np.minimum(self.outlines.radii, self._widening()))
 
     def _widening(self) -> Floats:
@@ -143,27 +175,20 @@ class Flow:
         rootward = np.minimum.accumulate((self._widest + rise)[:, ::-1], axis=1)[:, ::-1] - rise
         return np.minimum(tipward, rootward)
 
-    def _combed(self, roots: Floats, frames: Floats, force: Floats) -> Floats:
-        """``frames`` of first segments, (k, 3, 3), turned about the skin's normal toward ``force``, (k, 3).
+    def _combed(self, roots: Floats, direction: Floats, force: Floats) -> Floats:
+        """The ``direction`` of first segments turned about the skin's normal toward ``force``, (3, k) each.
 
         Hair that is combed against its growth does not first go its own way and then back in a loop.
         """
         _, outward = self._skin(roots)
-        direction = frames[:, :, 2]
-        rise = np.einsum("ij,ij->i", direction, outward)[:, None] * outward
+        rise = dot(direction, outward) * outward
         along = direction - rise
-        pull = force - np.einsum("ij,ij->i", force, outward)[:, None] * outward
+        pull = force - dot(force, outward) * outward
         nowhere = np.zeros_like(along)
         grows = unit(along, otherwise=nowhere)
-        opposed = np.clip(_ACROSS - np.einsum("ij,ij->i", unit(pull, otherwise=nowhere), grows), 0.0, 1.0)
-        way = unit(_HOLD * grows + opposed[:, None] * pull, otherwise=along)
-        combed = unit(rise + np.linalg.norm(along, axis=1, keepdims=True) * way, otherwise=direction)
-        return turn(frames, direction, combed)
-
-    def _clearance(self, wisps: Ints, joint: Ints) -> Floats:
-        """How far off the skin the end of the next segment stays [m], (k,)."""
-        radius = self.outlines.radii[wisps, joint + 1]
-        return np.minimum(_CLEARANCE + _RADIUS_PART * radius, _MOST_CLEARANCE)
+        opposed = np.clip(_ACROSS - dot(unit(pull, otherwise=nowhere), grows), 0.0, 1.0)
+        way = unit(_HOLD * grows + opposed * pull, otherwise=along)
+        return unit(rise + np.sqrt(dot(along, along)) * way, otherwise=direction)
 
     def _slide(self, start: Floats, direction: Floats, clearance: Floats) -> Floats:
         """Directions turned so that segments from ``start`` end no deeper than ``clearance`` [m]: hair slides along the head.
@@ -173,50 +198,58 @@ class Flow:
         """
         segment = self.outlines.segment
         distance, outward = self._skin(start + segment * direction)
+        low = np.flatnonzero(distance < clearance)
+        if len(low) == 0:
+            return direction
         direction = direction.copy()
-        low, slack = np.arange(len(start)), 0.0
-        for _ in range(_SLIDES):
-            deep = distance < clearance[low] - slack
-            low, distance, outward = low[deep], distance[deep], outward[deep]
-            if len(low) == 0:
+        start, clearance, distance, outward = start[:, low], clearance[low], distance[low], outward[:, low]
+        for correction in range(_SLIDES):
+            before = direction[:, low]
+            rise = dot(before, outward)
+            wanted = np.maximum(np.minimum(rise + (clearance - distance) / segment, 1.0), -1.0)
+            along = unit(before - rise * outward, otherwise=outward)
+            turned = unit(np.sqrt(1.0 - wanted**2) * along + wanted * outward, otherwise=outward)
+            direction[:, low] = turned
+            if correction == _SLIDES - 1:
                 break
-            rise = np.einsum("ij,ij->i", direction[low], outward)
-            wanted = np.clip(rise + (clearance[low] - distance) / segment, -1.0, 1.0)
-            along = unit(direction[low] - rise[:, None] * outward, otherwise=outward)
-            direction[low] = unit(
-                np.sqrt(1.0 - wanted**2)[:, None] * along + wanted[:, None] * outward, otherwise=outward
-            )
-            distance, outward = self._skin(start[low] + segment * direction[low])
-            slack = 1e-4
+            distance, outward = self._skin(start + segment * turned)
+            deep = np.flatnonzero(distance < clearance - _SLACK)
+            if len(deep) == 0:
+                break
+            low, start, clearance = low[deep], start[:, deep], clearance[deep]
+            distance, outward = distance[deep], outward[:, deep]
         return direction
 
     def _skin(self, points: Floats) -> tuple[Floats, Floats]:
-        distance, outward = self._density.surroundings.distance_and_gradient(points)
-        return distance.astype(np.float64), outward.astype(np.float64)
+        """Distance to the skin [m], (k,), and unit vectors away from it, (3, k)."""
+        distance, outward = self._density.surroundings.distance_and_gradient(points.T)
+        return distance.astype(np.float64), outward.T.astype(np.float64)
 
     def _make_room(self, start: Floats, direction: Floats, clearance: Floats, ceiling: Floats) -> Floats:
         """Directions bent along the density gradient while rho exceeds ``ceiling`` (eq. 6), and no more than _BENDS times."""
-        segment = self.outlines.segment
-        density, slope = self._density.at(start + 0.5 * segment * direction)
+        half = 0.5 * self.outlines.segment
+        density, slope = self._density.at((start + half * direction).T)
         colliding = np.flatnonzero(density > ceiling)
         self.tally.colliding += len(colliding)
-        bent, best, least = direction.copy(), direction.copy(), density.copy()
+        if len(colliding) == 0:
+            return direction
+        best = direction.copy()
+        bent, least, slope = direction[:, colliding], density[colliding], slope[colliding]
         for _ in range(_BENDS):
+            start_here, clear = start[:, colliding], clearance[colliding]
+            away = unit(-slope.T.astype(np.float64), otherwise=bent)
+            bent = self._slide(start_here, bend_toward(bent, away, _BEND), clear)
+            here, slope = self._density.at((start_here + half * bent).T)
+            better = here < least
+            least = np.where(better, here, least)
+            best[:, colliding[better]] = bent[:, better]
+            still = np.flatnonzero(here > ceiling[colliding])
+            colliding, bent, least, slope = colliding[still], bent[:, still], least[still], slope[still]
             if len(colliding) == 0:
                 break
-            away = unit(-slope[colliding].astype(np.float64), otherwise=bent[colliding])
-            turned = bend_toward(bent[colliding], away, _BEND)
-            bent[colliding] = self._slide(start[colliding], turned, clearance[colliding])
-            here, slope_here = self._density.at(start[colliding] + 0.5 * segment * bent[colliding])
-            slope[colliding] = slope_here
-            better = here < least[colliding]
-            least[colliding[better]] = here[better]
-            best[colliding[better]] = bent[colliding[better]]
-            colliding = colliding[here > ceiling[colliding]]
         self.tally.unresolved += len(colliding)
         return best
 
-    def _add(self, wisps: Ints, joint: Ints | int, middles: Floats, frames: Floats, sign: float) -> None:
-        across = frames[:, :, :2].transpose(0, 2, 1)
-        radii = self.outlines.radii[wisps, joint]
-        self._density.add(middles, across, radii, sign * self._amounts[wisps])
+    def _add(self, wisps: Ints, place: Ints, middles: Floats, across: Floats, along: Floats, sign: float) -> None:
+        both = np.stack([across, cross(along, across)], axis=1)
+        self._density.add(middles, both, self._radii.take(place), sign * self._amounts[wisps])

@@ -85,16 +85,16 @@ class Grid:
         return first + self._corner_numbers, at
 
     def value(self, values: Singles, points: Floats | Singles) -> Singles:
-        """``values`` at the nodes, (size,) or (size, d), at ``points`` [m], (k, 3): (k,) or (k, d)."""
+        """``values`` at the nodes, (size,) or (d, size), at ``points`` [m], (k, 3): (k,) or (k, d)."""
         corners, at = self.cells(points)
-        weights = corner_weights(at)
-        shared = values.take(corners, axis=0)
-        shared *= weights if values.ndim == 1 else weights[:, :, None]
-        total: Singles = shared.sum(axis=0)
-        return total
+        # A row of numbers after the other: numpy has long rows to work on, and the cache less to keep.
+        shared = values.take(corners, axis=-1)
+        shared *= corner_weights(at)
+        total: Singles = shared.sum(axis=-2)
+        return total.T
 
     def value_and_gradient(self, values: Singles, points: Floats | Singles) -> tuple[Singles, Singles]:
-        """``values`` at the nodes, (size,), at ``points``, (k,), and their gradient there [1/m], (k, 3)."""
+        """``values`` at the nodes, (size,), at ``points``, (k,), and their gradient there [1/m], (k, 3), column by column."""
         corners, (x, y, z) = self.cells(points)
         here = values.take(corners).reshape(2, 2, 2, -1)
         along_x = here[1] - here[0]
@@ -103,12 +103,12 @@ class Grid:
         line = plane[0] + y * along_y
         along_z = line[1] - line[0]
         slope_x = along_x[0] + y * (along_x[1] - along_x[0])
-        gradient = np.empty((len(x), 3), np.float32)
-        gradient[:, 0] = slope_x[0] + z * (slope_x[1] - slope_x[0])
-        gradient[:, 1] = along_y[0] + z * (along_y[1] - along_y[0])
-        gradient[:, 2] = along_z
+        gradient = np.empty((3, len(x)), np.float32)
+        gradient[0] = slope_x[0] + z * (slope_x[1] - slope_x[0])
+        gradient[1] = along_y[0] + z * (along_y[1] - along_y[0])
+        gradient[2] = along_z
         gradient *= self._per_metre
-        return line[0] + z * along_z, gradient
+        return line[0] + z * along_z, gradient.T
 
 
 def corner_weights(at: Singles) -> Singles:

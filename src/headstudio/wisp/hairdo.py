@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
 
 import numpy as np
 
-from ..head.mesh import Floats, Ints
+from ..head.mesh import Floats
 from ..head.scalp import Scalp
 from .adornment import Adornment, adorn
-from .chords import keep_chords_outside
 from .colour import strand_colours
-from .curves import LengthDistribution
-from .cutting import Blade, cut_strands
+from .cutting import Blade
 from .deform import Deformer, DeformReport
-from .follicles import Regions, scatter_strands, spread_wisps
-from .hairline import fineness
+from .follicles import Regions, spread_wisps
+from .growth import Sown, member_strands
 from .maps import density_map
 from .markov import Singles
 from .masters import master_controls, synthesise_details
-from .members import Cuts, Masters, displacements, member_points
+from .members import Masters
 from .outlines import Outlines
 from .parting import Parting
 from .rest import rest_outlines
@@ -31,12 +28,6 @@ from .settings import HairColourSettings, WispSettings
 from .strands import Strands
 from .styling_settings import StylingSettings
 from .surroundings import Surroundings
-
-# Strands that are made in one go: what they need fits the processor's cache. Random numbers go with the block, so that
-# neither the number of threads nor that of strands changes a strand. A few blocks are made by halves, which are shared
-# evenly among processors; more of them are not, since each takes its look at all lengths.
-_BLOCK, _FEW_BLOCKS = 8192, 4
-_CLEARANCE = 0.0005  # of strands from the skin [m]
 
 MadeT = TypeVar("MadeT")
 
@@ -76,10 +67,9 @@ class _Laid:
 
 @dataclass(frozen=True, eq=False)
 class _Grown:
-    """Strands that have no colour yet, the wisp of each, (S,), and the control points of the masters."""
+    """Strands that have no colour yet, and the control points of the masters."""
 
     strands: Strands
-    owner: Ints
     controls: Singles
 
 
@@ -129,27 +119,40 @@ class Stylist:
             lambda: _spread(scalp, wisp, announce),
         )
         bare = replace(styling, cuts=(), accessories=())
-        laid = step(
-            "laid",
-            (spread, surroundings, bare),
-            lambda: self._lay(spread, scalp, surroundings, bare, announce),
-        )
         count = wisp.strands if strands is None else min(strands, wisp.strands)
+
+        def sow() -> tuple[Sown, Singles]:
+            sown = step(
+                "sown",
+                (spread, count, wisp.hairline),
+                lambda: Sown.on(scalp, spread.regions, count, wisp),
+            )
+            colours = step(
+                "colours",
+                (sown, colour, wisp.points),
+                lambda: strand_colours(colour, sown.owner, spread.regions.count, wisp.points).reshape(-1, 3),
+            )
+            return sown, colours
+
+        # Where strands are rooted and what colour they have is found out while the wisps are laid.
+        with ThreadPoolExecutor(1) as aside:
+            sowing = aside.submit(sow)
+            laid = step(
+                "laid",
+                (spread, surroundings, bare),
+                lambda: self._lay(spread, scalp, surroundings, bare, announce),
+            )
+            announce("colour")
+            sown, colours = sowing.result()
         grown = step(
             "grown",
-            (laid, wisp, styling.cuts, count),
-            lambda: _grow(laid, scalp, surroundings, wisp, styling, count, announce),
+            (laid, sown, wisp, styling.cuts),
+            lambda: _grow(laid, sown, scalp, surroundings, wisp, styling, announce),
         )
         worn = step(
             "worn",
             (spread, surroundings, styling.accessories, styling.operations),
             lambda: adorn(styling, surroundings, float(spread.rest.counts.max(initial=0) * spread.rest.segment)),
-        )
-        announce("colour")
-        colours = step(
-            "colours",
-            (grown, colour),
-            lambda: strand_colours(colour, grown.owner, laid.spread.regions.count, wisp.points).reshape(-1, 3),
         )
         coloured = replace(grown.strands, colour=colours)
         return Hairdo(coloured, laid.outlines, grown.controls, laid.report, worn)
@@ -177,70 +180,24 @@ def _spread(scalp: Scalp, wisp: WispSettings, announce: Callable[[str], None]) -
 
 def _grow(
     laid: _Laid,
+    sown: Sown,
     scalp: Scalp,
     surroundings: Surroundings,
     wisp: WispSettings,
     styling: StylingSettings,
-    count: int,
     announce: Callable[[str], None],
 ) -> _Grown:
-    """Grow ``count`` strands around the masters of wisps that lie."""
+    """Grow the strands that are sown around the masters of wisps that lie."""
     announce("strands")
     details = synthesise_details(laid.spread.rest, wisp)
     outlines = laid.outlines
     controls = master_controls(outlines, details)
-    roots, owner = scatter_strands(laid.spread.regions, count, wisp.seed)
     masters = Masters(
         controls, details.per_segment, outlines.radii.astype(np.float32), laid.spread.lengths / outlines.segment
     )
     uv = scalp.locate(laid.spread.rest.roots)
     blades = [Blade.of(cut, surroundings.proportions, uv) for cut in styling.cuts]
-    points = _member_strands(masters, roots, owner, wisp, surroundings, blades)
+    points = member_strands(masters, sown, wisp, surroundings, blades)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
-    radius = fineness(scalp, roots, wisp.hairline, wisp.seed)[:, None] * shaft
-    made = Strands.of_equal_count(points, radius, None, owner.astype(np.int32))
-    return _Grown(replace(made, stands_for=wisp.strands / count), owner, controls)
-
-
-def _member_strands(
-    masters: Masters, roots: Floats, owner: Ints, wisp: WispSettings, surroundings: Surroundings, blades: list[Blade]
-) -> Singles:
-    """Points of all member strands outside the head [m], (S, points, 3): each block on whichever processor is free."""
-    distribution = LengthDistribution.of(wisp)
-    lengths = distribution.sample(np.random.default_rng([wisp.seed, 4]).random(len(owner)))
-    cuts = Cuts.of(masters, wisp.points)
-    points = np.empty((len(owner), wisp.points, 3), dtype=np.float32)
-    piece = _BLOCK // 2 if len(owner) <= _FEW_BLOCKS * _BLOCK else _BLOCK
-
-    def grow(start: int) -> None:
-        here = slice(start, start + piece)
-        own = owner[here]
-        first = (roots[here] - masters.controls[own, 0]).T.astype(np.float32)
-        even = _even_numbers([wisp.seed, 5, start // _BLOCK], start % _BLOCK, len(own))
-        offsets = displacements(masters.radii[own].T, first, wisp.fuzziness, even)
-        grown = member_points(masters, cuts, own, offsets, lengths[here])
-        # Last of all, since what is cut is drawn anew with straight ways between fewer places.
-        cut = cut_strands(grown, own, blades)
-        outside = surroundings.keep_outside(cut.reshape(-1, 3), _CLEARANCE).reshape(cut.shape)
-        points[here] = keep_chords_outside(surroundings, outside, _CLEARANCE)
-
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(grow, range(0, len(owner), piece)))
-    return points
-
-
-def _even_numbers(seed: list[int], start: int, count: int) -> Iterator[Singles]:
-    """Uniform random numbers below 1, (3, count), without end: those of the strands from ``start``, an even number, on in
-    their block. The same for a strand however many come after it.
-    """
-    bits = np.random.PCG64(seed)
-    rng = np.random.Generator(bits)
-    # One draw of 64 bits makes two of these numbers.
-    made = count + count % 2
-    while True:
-        numbers = np.empty((3, made), dtype=np.float32)
-        for row in numbers:
-            bits.advance(start // 2)
-            rng.random(out=row, dtype=np.float32)
-            bits.advance((_BLOCK - start - made) // 2)
-        yield numbers[:, :count]
+    made = Strands.of_equal_count(points, sown.fineness[:, None] * shaft, None, sown.owner.astype(np.int32))
+    return _Grown(replace(made, stands_for=wisp.strands / max(len(sown.owner), 1)), controls)

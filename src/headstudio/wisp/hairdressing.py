@@ -8,9 +8,9 @@ from functools import singledispatch
 import numpy as np
 
 from ..head.mesh import Floats
+from ..head.rows import row_unit
 from .braiding import plait
 from .constraints import Constraint, DirectionConstraint, PointConstraint, TrajectoryConstraint
-from .joints import unit
 from .operations import AlongPath, Braid, Bun, Constrain, Operation, Place, Step, Tie, ToPoint, Updo
 from .paths import along_skin, hang, off_skin, outward, sideways
 from .queues import Queue
@@ -122,7 +122,7 @@ def elastic_of(operation: Operation, surroundings: Surroundings, longest: float)
         return Elastic(point, away, operation.tolerance, operation.colour)
     if isinstance(operation, Braid) and operation.elastic:
         middle = _braid_path(operation, surroundings, longest)[1]
-        axis = unit((middle[-1] - middle[-3])[None], otherwise=_DOWN)[0]
+        axis = row_unit((middle[-1] - middle[-3])[None], otherwise=_DOWN)[0]
         return Elastic(middle[-1], axis, 1.2 * operation.thickness, operation.colour)
     return None
 
@@ -136,7 +136,7 @@ def _knot(surroundings: Surroundings, place: Place, radius: float) -> tuple[Floa
 def _across(away: Floats) -> tuple[Floats, Floats]:
     """Two directions across ``away``, (3,): sideways and up."""
     up = np.array([0.0, 1.0, 0.0]) if abs(away[1]) < 0.95 else np.array([0.0, 0.0, 1.0])
-    side = unit(np.cross(up, away)[None], otherwise=np.array([[1.0, 0.0, 0.0]]))[0]
+    side = row_unit(np.cross(up, away)[None], otherwise=np.array([[1.0, 0.0, 0.0]]))[0]
     return side, np.cross(away, side)
 
 

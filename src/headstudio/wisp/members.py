@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -33,32 +32,37 @@ class Masters:
         return np.ascontiguousarray(self.controls.transpose(2, 1, 0))
 
 
-def displacements(radii: Singles, first: Singles, fuzziness: float, even: Iterator[Singles]) -> Singles:
+def displacements(radii: Singles, first: Singles, fuzziness: float, even: Singles) -> Singles:
     """d_k of member strands from their master's control points [m], (3, n, S), by the recurrence of eq. 1.
 
     radii: r_k at the control points of each strand's master [m], (n, S). first: d_1 [m], (3, S), not beyond r_1.
-    fuzziness: sigma. even: an endless supply of uniform random numbers below 1, (3, S).
+    fuzziness: sigma. even: uniform random numbers below 1, (n - 1, 3, S).
 
     The noise e = y x has a random direction x and a length y up to sigma r_k, but not beyond the sphere of radius r_k:
     |d_k| <= r_k. Where r_{k-1} is zero so is d_{k-1}, and the next one is noise alone.
     """
+    directions = _directions(2 * even[:, 0] - 1, np.float32(2 * np.pi) * even[:, 1])
+    # One is where the wisp is pinched to a point: any ratio will do for a displacement of zero.
+    ratios = radii[1:] / np.where(radii[:-1] > 0, radii[:-1], 1)
     result = np.empty((3, *radii.shape), dtype=np.float32)
     result[:, 0] = first
-    for k in range(1, len(radii)):
-        radius, before = radii[k], radii[k - 1]
-        # One is where the wisp is pinched to a point: any ratio will do for a displacement of zero.
-        ratio = radius / np.where(before > 0, before, 1)
-        height, turn, part = next(even)
-        height = 2 * height - 1
-        turn = np.float32(2 * np.pi) * turn
-        level = np.sqrt(np.maximum(1 - height * height, 0))
-        x = np.stack([level * np.cos(turn), level * np.sin(turn), height])
+    for k, (x, ratio) in enumerate(zip(directions, ratios), start=1):
         origin = ratio * result[:, k - 1]
         along = np.einsum("ij,ij->j", origin, x)
-        room = radius * radius - np.einsum("ij,ij->j", origin, origin)
+        room = radii[k] * radii[k] - np.einsum("ij,ij->j", origin, origin)
         reach = np.sqrt(np.maximum(along * along + room, 0)) - along
-        y = part * np.clip(reach, 0, np.float32(fuzziness) * radius)
-        result[:, k] = origin + y * x
+        y = even[k - 1, 2] * np.clip(reach, 0, np.float32(fuzziness) * radii[k])
+        np.add(origin, y * x, out=result[:, k])
+    return result
+
+
+def _directions(height: Singles, turn: Singles) -> Singles:
+    """Unit vectors by their height on the sphere, -1 to 1, and their longitude [rad], (n, S) each: (n, 3, S)."""
+    level = np.sqrt(np.maximum(1 - height * height, 0))
+    result = np.empty((len(height), 3, height.shape[1]), dtype=np.float32)
+    np.multiply(level, np.cos(turn), out=result[:, 0])
+    np.multiply(level, np.sin(turn), out=result[:, 1])
+    result[:, 2] = height
     return result
 
 
@@ -108,16 +112,21 @@ def member_points(masters: Masters, cuts: Cuts, wisp: Ints, offsets: Singles, le
     ends = Cuts.PER_SEGMENT * lengths * masters.ends[wisp]
     cut = np.clip(np.rint(ends), 1, len(cuts.coarse) - 1).astype(np.int64)
     order = np.argsort(cut, kind="stable")
-    wisp, offsets = wisp[order], offsets[:, :, order]
+    wisp, offsets = wisp[order], offsets.take(order, axis=2)
+    curled = cuts.fine is not cuts.coarse
+    if not curled:
+        offsets += masters.columns.take(wisp, axis=2)
     sampled = np.empty((3, cuts.coarse.shape[1], len(wisp)), dtype=np.float32)
     places, starts = np.unique(cut[order], return_index=True)
     for place, start, stop in zip(places, starts, [*starts[1:], len(wisp)], strict=True):
         here = slice(start, stop)
         fine, coarse = (cuts.needed(place, count) for count in (cuts.fine.shape[2], cuts.coarse.shape[2]))
         sampled[:, :, here] = cuts.coarse[place, :, :coarse] @ offsets[:, :coarse, here]
-        sampled[:, :, here] += cuts.fine[place, :, :fine] @ masters.columns[:, :fine, wisp[here]]
+        if curled:
+            sampled[:, :, here] += cuts.fine[place, :, :fine] @ masters.columns[:, :fine].take(wisp[here], axis=2)
     longer = (ends[order] / cut[order] - 1).astype(np.float32)
     sampled += np.gradient(sampled, axis=1) * (np.arange(sampled.shape[1], dtype=np.float32)[:, None] * longer)
     result = np.empty((len(wisp), sampled.shape[1], 3), dtype=np.float32)
-    result[order] = sampled.transpose(2, 1, 0)
+    for axis in range(3):
+        result[order, :, axis] = sampled[axis].T
     return result

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from ..head.mesh import Floats
+from ..head.rows import row_unit
 from ..head.scalp_curves import catmull_rom
-from .joints import unit
 from .surroundings import Surroundings
 
 _APPROACHES = 5
@@ -40,9 +40,9 @@ def hang(surroundings: Surroundings, start: Floats, first: Floats, length: float
     points = [np.asarray(start, dtype=np.float64)]
     direction = np.asarray(first, dtype=np.float64)
     for _ in range(max(round(length / STEP), 1)):
-        direction = unit((direction + 0.25 * down)[None], otherwise=down[None])[0]
+        direction = row_unit((direction + 0.25 * down)[None], otherwise=down[None])[0]
         free = off_skin(surroundings, (points[-1] + STEP * direction)[None], clearance)[0]
-        direction = unit((free - points[-1])[None], otherwise=down[None])[0]
+        direction = row_unit((free - points[-1])[None], otherwise=down[None])[0]
         points.append(points[-1] + STEP * direction)
     return _smooth(np.array(points))
 
@@ -56,10 +56,10 @@ def along_skin(surroundings: Surroundings, proportions: Floats, clearance: float
 
 def sideways(surroundings: Surroundings, path: Floats) -> tuple[Floats, Floats]:
     """Two unit directions across a path, (n, 3) [m]: along the skin and away from it, (n, 3) each, turning slowly."""
-    tangent = unit(np.gradient(path, axis=0), otherwise=np.broadcast_to([0.0, -1.0, 0.0], path.shape))
+    tangent = row_unit(np.gradient(path, axis=0), otherwise=np.broadcast_to([0.0, -1.0, 0.0], path.shape))
     away = gaussian_filter1d(outward(surroundings, path), 0.03 / STEP, axis=0, mode="nearest")
     away = away - np.einsum("ij,ij->i", away, tangent)[:, None] * tangent
-    away = unit(away, otherwise=np.cross(tangent, [1.0, 0.0, 0.0]))
+    away = row_unit(away, otherwise=np.cross(tangent, [1.0, 0.0, 0.0]))
     return np.cross(tangent, away), away
 
 

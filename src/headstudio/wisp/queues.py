@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_unit
 from .constraints import Constraint, Joint, Progress
 from .flow import Flow
-from .joints import unit
 from .selection import Selection
 
 # After a tie hair spreads again: over this length the density it was pressed to falls by e [m].
@@ -152,4 +152,4 @@ def _lanes(roots: Floats) -> Floats:
     size, axes = np.linalg.eigh(away.T @ away / len(roots))
     away = (away @ axes) / np.sqrt(np.maximum(size, 1e-12)) @ axes.T
     rank = np.argsort(np.argsort(np.linalg.norm(away, axis=1), kind="stable"), kind="stable")
-    return np.sqrt((rank + 0.5) / len(roots))[:, None] * unit(away, otherwise=np.zeros_like(away))
+    return np.sqrt((rank + 0.5) / len(roots))[:, None] * row_unit(away, otherwise=np.zeros_like(away))

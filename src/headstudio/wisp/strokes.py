@@ -15,9 +15,9 @@ from scipy import sparse
 from scipy.sparse.linalg import cg
 
 from ..head.mesh import Floats
+from ..head.rows import row_unit
 from ..params import number
 from .grid import Grid
-from .joints import unit
 from .operations import Place
 from .proportions import Proportions
 
@@ -60,7 +60,7 @@ def _drawn(grid: Grid, stroke: Stroke, proportions: Proportions) -> tuple[NDArra
     distance = np.linalg.norm(grid.nodes[box, None] - nearest, axis=2)
     piece = distance.argmin(axis=1)
     inside = distance[np.arange(len(box)), piece] <= stroke.radius
-    directions = stroke.strength * unit(tangent, otherwise=np.zeros_like(tangent))
+    directions = stroke.strength * row_unit(tangent, otherwise=np.zeros_like(tangent))
     # A stroke finer than the grid still bends the node next to it.
     own = grid.cells(middle)[0][0]
     return np.concatenate([own, box[inside]]), np.concatenate([directions, directions[piece[inside]]])

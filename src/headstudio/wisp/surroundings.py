@@ -64,8 +64,10 @@ class Surroundings:
     def distance_and_gradient(self, points: Floats | Singles) -> tuple[Singles, Singles]:
         """Both at once: (k,) [m] and unit vectors, (k, 3)."""
         distance, gradient = self.skin_grid.value_and_gradient(self.distances, points)
-        length = np.sqrt(np.einsum("ij,ij->i", gradient, gradient))
-        return distance, gradient / np.maximum(length, np.float32(1e-6))[:, None]
+        columns = gradient.T
+        length = np.sqrt(np.einsum("ij,ij->j", columns, columns))
+        columns /= np.maximum(length, np.float32(1e-6))
+        return distance, gradient
 
     def keep_outside(self, points: Singles, margin: float) -> Singles:
         """``points`` [m], float32, (k, 3), with those nearer to the skin than ``margin`` [m] moved straight out to it.

@@ -7,7 +7,8 @@ from itertools import pairwise
 import numpy as np
 
 from ..head.mesh import Floats, Ints, TriangleMesh
-from .joints import turn, unit
+from ..head.rows import row_unit
+from .joints import turn
 
 _AROUND = 10  # corners of a tube's cross-section
 
@@ -26,8 +27,8 @@ def closed_tube(path: Floats, radius: float) -> TriangleMesh:
 
 def ribbon_strip(path: Floats, normals: Floats, widths: Floats, thickness: float) -> TriangleMesh:
     """A flat ribbon along a path, (n, 3) [m], facing ``normals``, (n, 3), of ``widths``, (n,), and a ``thickness`` [m]."""
-    tangent = unit(np.gradient(path, axis=0), otherwise=np.zeros_like(path))
-    side = unit(np.cross(normals, tangent), otherwise=np.zeros_like(path))
+    tangent = row_unit(np.gradient(path, axis=0), otherwise=np.zeros_like(path))
+    side = row_unit(np.cross(normals, tangent), otherwise=np.zeros_like(path))
     up = np.cross(tangent, side)
     half, thin = 0.5 * widths[:, None, None], 0.5 * thickness
     corners = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
@@ -45,15 +46,14 @@ def joined(meshes: list[TriangleMesh]) -> TriangleMesh:
 def _across(path: Floats, closed: bool) -> tuple[Floats, Floats]:
     """Two unit directions across a path at every point, which turn no more than it does, (n, 3) each."""
     steps = np.roll(path, -1, axis=0) - np.roll(path, 1, axis=0) if closed else np.gradient(path, axis=0)
-    tangent = unit(steps, otherwise=np.broadcast_to([0.0, 1.0, 0.0], path.shape))
+    tangent = row_unit(steps, otherwise=np.broadcast_to([0.0, 1.0, 0.0], path.shape))
     least = np.eye(3)[np.abs(tangent[0]).argmin()]
-    first = unit(np.cross(tangent[0], least)[None], otherwise=least[None])[0]
-    frame = np.stack([first, np.cross(tangent[0], first), tangent[0]], axis=1)[None]
-    frames = [frame]
+    first = row_unit(np.cross(tangent[0], least)[None], otherwise=least[None])
+    turned = [first]
     for before, after in pairwise(tangent):
-        frames.append(turn(frames[-1], before[None], after[None]))
-    stacked = np.concatenate(frames)
-    return stacked[:, :, 0], stacked[:, :, 1]
+        turned.append(turn(turned[-1].T, before[:, None], after[:, None]).T)
+    across = np.concatenate(turned)
+    return across, np.cross(tangent, across)
 
 
 def _round(first: Floats, second: Floats, radii: Floats) -> Floats:
