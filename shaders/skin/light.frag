@@ -1,5 +1,7 @@
 #version 330
-// The light that living skin sends to the eye, at every pixel where it is seen.
+// The light that living skin sends to the eye, at every pixel where it is seen. To be defined:
+// LAFORTUNE for his model, or 0 for the simple one; SHOWS_VALUE where a value is shown on the skin;
+// KEPT_APART where light that has entered the skin is spread in the picture.
 #include "common/scene.glsl"
 #include "common/shadow.glsl"
 #include "common/highlight.glsl"
@@ -25,11 +27,8 @@ uniform float gloss;
 uniform float roughness;
 uniform float scattering;
 uniform float steepest;       // curvature at the end of the table [1/m]
-uniform int model;            // 0 simple, 1 Lafortune
 uniform vec3 tint;            // the skin's own colour over that of measured skin
 uniform vec3 measured_diffuse;
-uniform bool shows_value;
-uniform bool kept_apart;      // light that has entered the skin, to be spread in the picture
 layout(location = 0) out vec4 colour;
 layout(location = 1) out vec4 entered;
 
@@ -55,7 +54,7 @@ void main() {
     float lips = painted.y, hair = painted.z;
     float open = (1.0 - painted.x) * mix(1.0, bumps.open, min(creases, 1.0));
     // Blood, in units of haemoglobin: where skin is thin there is more to be seen of it, and pressed skin keeps more.
-    float pressed = shows_value ? 0.0 : 1.0 - 2.0 * bumps.value;
+    float pressed = SHOWS_VALUE == 1 ? 0.0 : 1.0 - 2.0 * bumps.value;
     float blood = 0.6 * flushed * (painted.w - blood_mean) + 1.15 * 0.85 * lips + blood_flow * pressed;
     vec3 pigment = exp(-max(blood, -0.5) * haemoglobin);
     vec3 albedo = skin_colour * pigment;
@@ -65,7 +64,7 @@ void main() {
     // The more the light grazes, the farther the surface itself rises into it within the soft edge of the shadow.
     float rise = min(sqrt(max(1.0 - smooth_n_l * smooth_n_l, 0.0)) / max(smooth_n_l, 0.1), 3.0);
     float lit = light_at(place + smooth_n * 0.0015, 0.0015 + 0.0035 * rise, 0.004);
-    vec3 soft_lit = mix(vec3(lit), vec3(lit * (1.3 - 0.3 * lit), lit, lit), kept_apart ? 0.0 : min(scattering, 1.0));
+    vec3 soft_lit = mix(vec3(lit), vec3(lit * (1.3 - 0.3 * lit), lit, lit), KEPT_APART == 1 ? 0.0 : min(scattering, 1.0));
 
     // Light that has been under the skin: of the smooth surface, bent as it is, plus what bumps add and take.
     float bend = sqrt(clamp(abs(surface.w) * scattering / steepest, 0.0, 1.0));
@@ -73,11 +72,12 @@ void main() {
     vec3 around = textureLod(scattered, (vec2(0.5 + 0.5 * smooth_n_l, bend) * (table - 1.0) + 0.5) / table, 0.0).rgb;
     vec3 creep = wrap * min(scattering, 1.0);
     vec3 wrapped = clamp((vec3(smooth_n_l) + creep) / (1.0 + creep), 0.0, 1.0);
-    around = kept_apart ? vec3(max(smooth_n_l, 0.0)) : max(around, wrapped * wrapped);
-    vec3 softer = kept_apart ? vec3(0.0) : softened * min(scattering, 1.0);
+    around = KEPT_APART == 1 ? vec3(max(smooth_n_l, 0.0)) : max(around, wrapped * wrapped);
+    vec3 softer = KEPT_APART == 1 ? vec3(0.0) : softened * min(scattering, 1.0);
     vec3 bumped = (max(n_l, 0.0) - max(smooth_n_l, 0.0)) * (1.0 - softer);
     // What sees next to nothing of the sky sees no lamp either, but what red walls send on.
-    vec3 reached = pow(vec3(smoothstep(0.0, 0.05, open)), vec3(1.0, 1.5, 1.6));
+    float seen = smoothstep(0.0, 0.05, open), root = sqrt(seen);
+    vec3 reached = seen * vec3(1.0, root, root * sqrt(sqrt(root)));
     vec3 diffuse = max(around + bumped, 0.0) * soft_lit * mix(1.0, open, 0.35) * reached;
 
     // Light bounces between nearby skin: cavities go red-brown before they go black.
@@ -85,7 +85,7 @@ void main() {
     vec3 soft_n = normalize(mix(n, smooth_n, 0.5));
     vec3 soft = mix(ground.rgb, sky.rgb, soft_n.y * 0.5 + 0.5) * open_tint;
 
-    if (shows_value) {
+    if (SHOWS_VALUE == 1) {
         vec3 shown = textureLod(scale, vec2((bumps.value * 255.0 + 0.5) / 256.0, 0.5), 0.0).rgb;
         entered = vec4(0.0);
         colour = vec4(shown * (0.35 + 0.65 * (radiance.rgb * diffuse + soft) / (radiance.rgb + sky.rgb)), 1.0);
@@ -95,7 +95,7 @@ void main() {
     float n_v = max(dot(n, to_eye), 0.0), front = max(n_l, 0.0);
     vec3 mirrored, base = albedo;
     float glossy = gloss * (1.0 - hair) * mix(1.0, open, 0.92);
-    if (model == 0) {
+    if (LAFORTUNE == 0) {
         vec3 h = normalize(l + to_eye);
         float n_h = max(dot(n, h), 0.0);
         float fresnel = 0.028 + 0.972 * fifth(1.0 - max(dot(h, to_eye), 0.0));
@@ -114,7 +114,7 @@ void main() {
     mirrored += sheen * min(glossy, 1.0);
     vec3 sent = base * (radiance.rgb * diffuse + soft);
     // Hair scatters nothing under itself.
-    float stays = kept_apart ? hair : 1.0;
+    float stays = KEPT_APART == 1 ? hair : 1.0;
     colour = vec4(sent * stays + mirrored, 1.0);
     entered = vec4(sent * (1.0 - stays), 1.0 - stays);
 }

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from headstudio.head.mesh import TriangleMesh
 from headstudio.params import assign
+from headstudio.render.detail import neighbours_together
 from headstudio.render.fine_relief import FineRelief
 from headstudio.render.renderer import Renderer
-from headstudio.render.skin_shape import curvature_of, faded_in, hidden_in_creases, hidden_in_mouth, neighbours_together
+from headstudio.render.skin_shape import curvature_of, faded_in, hidden_in_creases, hidden_in_mouth
 from headstudio.render.skin_values import scale_colours, shown_values
 from headstudio.scene.builder import Builder
 from headstudio.scene.document import Document

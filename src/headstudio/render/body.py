@@ -6,21 +6,21 @@ import moderngl
 import numpy as np
 
 from ..head.head import Head
+from ..head.mesh import Floats
 from ..scene.settings import Look
 from ..scene.skin_settings import SkinSettings
 from .body_parts import BodyParts, hidden_of_head
 from .buffers import bytes_of, floats_of, indices_of
 from .context import load_program, set_uniforms
+from .detail import Surface, casting_shadows, neighbours_together
+from .detailed_faces import DetailedFaces
 from .hair_ground import Growth, ground_colour, ground_cover, same_ground
 from .openings import Openings
 from .scene_block import linear
 from .screen import ScreenPasses
-from .skin_paint import coarse_faces, paint
+from .skin_paint import paint
 from .targets import PictureTargets
 from .view import View
-
-# Details below this [m] are left out of the body that casts shadows.
-_SHADOW_DETAIL = 0.004
 
 
 class BodyPrograms:
@@ -45,27 +45,33 @@ class Body:
         self._openings = Openings(head.skin)
         skin = head.skin
         hidden_skin, hidden_parts = hidden_of_head(context, head)
-        surface = np.concatenate([skin.vertices, skin.vertex_normals, head.head_weight[:, None]], axis=1)
-        vertices = context.buffer(floats_of(surface))
+        corners = np.concatenate([skin.vertices, skin.vertex_normals, head.head_weight[:, None]], axis=1)
+        vertices = context.buffer(floats_of(corners))
+        painted = paint(head)
+        surface = Surface(
+            neighbours_together(skin.faces, skin.vertices), skin.vertices, skin.vertex_normals, painted[:, :2]
+        )
+        self._faces = DetailedFaces(context, surface)
+        self._level = -1
         self._cover = context.buffer(bytes_of(ground_cover(head, None)))
         self._skin = context.vertex_array(
             programs.skin,
             [
                 (vertices, "3f 3f 1f", "position", "normal", "head_weight"),
-                (context.buffer(bytes_of(np.column_stack([hidden_skin, paint(head)]))), "4f1", "paint"),
+                (context.buffer(bytes_of(np.column_stack([hidden_skin, painted]))), "4f1", "paint"),
                 (self._cover, "1f1", "cover"),
             ],
-            context.buffer(indices_of(skin.faces)),
+            self._faces.buffer,
         )
         self._covering = context.vertex_array(
             programs.covering,
             [(vertices, "3f 12x 1f", "position", "head_weight")],
-            context.buffer(indices_of(skin.faces)),
+            self._faces.buffer,
         )
         self._shadow = context.vertex_array(
             programs.depth,
             [(vertices, "3f 12x 1f", "position", "head_weight")],
-            context.buffer(indices_of(coarse_faces(skin, _SHADOW_DETAIL))),
+            context.buffer(indices_of(casting_shadows(skin))),
         )
         self._parts = BodyParts(context, programs.part, head, hidden_parts)
 
@@ -75,13 +81,18 @@ class Body:
             self._cover.write(bytes_of(ground_cover(self.head, growth)))
         self._growth = growth
 
+    def look_from(self, view: View, shift: Floats, height: int) -> None:
+        """Be as detailed as the next picture needs, ``height`` pixels high, of the head moved by ``shift`` [m], (3,)."""
+        self._level = self._faces.level_for(view, shift, height)
+        self._parts.look_from(view, shift, height)
+
     def draw_depth(self) -> None:
         """The body into the shadow map."""
         self._shadow.render()
 
-    def surface_target(self, targets: PictureTargets) -> moderngl.Framebuffer:
-        """Where ``draw_surface`` draws."""
-        return targets.surface
+    def surface_targets(self, targets: PictureTargets) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
+        """Where ``draw_surface`` draws, and what of it is to be cleared before."""
+        return targets.surface, targets.bare
 
     def draw_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
         """What the skin is like, into the framebuffer in use; texture 2 is the strands."""
@@ -89,7 +100,7 @@ class Body:
         # Half of the triangles face away, and their inside is only seen through an opening.
         if not self._openings.shown_to(view.eye):
             self._context.enable(moderngl.CULL_FACE)
-        self._skin.render()
+        self._faces.render(self._skin, self._level)
         self._context.disable(moderngl.CULL_FACE)
 
     def light_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
@@ -120,16 +131,16 @@ class Body:
 
     def cover_samples(self, targets: PictureTargets) -> None:
         """Draw the lit skin of ``targets`` into the framebuffer in use, which has several samples a pixel."""
-        draw_covering(self._covering, targets)
+        prepare_covering(self._programs.covering, targets)
+        self._faces.render(self._covering, self._level)
 
     def draw_parts(self, look: Look) -> None:
         """Eyes, teeth and lashes into the framebuffer in use; texture 0 is the shadow map, 1 the light map."""
         self._parts.draw(look)
 
 
-def draw_covering(skin: moderngl.VertexArray, targets: PictureTargets) -> None:
-    """Draw ``skin`` with the light that ``targets`` show on it."""
+def prepare_covering(program: moderngl.Program, targets: PictureTargets) -> None:
+    """What skin is drawn with that has the light that ``targets`` show on it."""
     targets.colour.use(3)
     targets.distance.use(4)
-    set_uniforms(skin.program, lit=3, distances=4)
-    skin.render()
+    set_uniforms(program, lit=3, distances=4)

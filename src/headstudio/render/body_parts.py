@@ -10,15 +10,19 @@ import numpy as np
 from ..head.head import Head, Part
 from ..head.mesh import Floats
 from ..scene.settings import Look
-from .buffers import bytes_of, floats_of, indices_of
+from .buffers import bytes_of, floats_of
 from .context import set_uniforms
+from .detail import Surface
+from .detailed_faces import DetailedFaces
 from .scene_block import linear
 from .skin_paint import dental_arch, gums, mouth_light, standing_out
 from .sky import hidden_from_sky
+from .view import View
 
 # How part.frag tells the parts apart.
 _KINDS = {"eye": 0, "teeth": 1, "tongue": 2, "lashes": 3, "brows": 3, "other": 4}
 _IN_MOUTH = ("teeth", "tongue")
+_HAIRS = ("lashes", "brows")
 
 
 def hidden_of_head(context: moderngl.Context, head: Head) -> tuple[Floats, list[Floats]]:
@@ -42,17 +46,24 @@ class BodyParts:
         """hidden: of the sky, of every vertex of each part, see ``hidden_of_head``."""
         self._program = program
         self._shown = list(head.parts)
+        details = [_detail(head, part) for part in head.parts]
+        surfaces = [
+            Surface(part.mesh.faces, part.mesh.vertices, part.mesh.vertex_normals, detail)
+            for part, detail in zip(head.parts, details)
+        ]
+        self._faces = [DetailedFaces(context, surface) for surface in surfaces]
+        self._levels = [-1] * len(head.parts)
         self._surfaces = [context.buffer(floats_of(_surface(part))) for part in head.parts]
         self._arrays = [
             context.vertex_array(
                 program,
                 [
                     (surface, "3f 3f", "position", "normal"),
-                    (context.buffer(bytes_of(np.column_stack([dark, _detail(head, part)]))), "4f1", "paint"),
+                    (context.buffer(bytes_of(np.column_stack([dark, detail]))), "4f1", "paint"),
                 ],
-                context.buffer(indices_of(part.mesh.faces)),
+                faces.buffer,
             )
-            for part, surface, dark in zip(head.parts, self._surfaces, hidden)
+            for surface, dark, detail, faces in zip(self._surfaces, hidden, details, self._faces)
         ]
         # Lashes are translucent, and so the last.
         self._order = sorted(range(len(head.parts)), key=lambda k: _KINDS[head.parts[k].kind] == _KINDS["lashes"])
@@ -63,6 +74,14 @@ class BodyParts:
             if part is not self._shown[k]:
                 self._surfaces[k].write(floats_of(_surface(part)))
                 self._shown[k] = part
+
+    def look_from(self, view: View, shift: Floats, height: int) -> None:
+        """Be as detailed as the next picture needs, ``height`` pixels high, of the head moved by ``shift`` [m], (3,)."""
+        self._levels = [
+            # Hairs are few triangles, and thinner than any pixel.
+            -1 if part.kind in _HAIRS else faces.level_for(view, shift, height)
+            for part, faces in zip(self._shown, self._faces)
+        ]
 
     def draw(self, look: Look) -> None:
         """Into the framebuffer in use; texture 0 is the shadow map, 1 the light map."""
@@ -75,16 +94,17 @@ class BodyParts:
             iris_colour=tuple(linear(look.iris_colour)),
         )
         for k in self._order:
-            self._draw_part(self._shown[k], self._arrays[k])
+            self._draw_part(k)
 
-    def _draw_part(self, part: Part, array: moderngl.VertexArray) -> None:
+    def _draw_part(self, k: int) -> None:
+        part = self._shown[k]
         kind = part.kind
         if part.centre is not None and part.axis is not None:
             set_uniforms(self._program, ball=(*part.centre.tolist(), part.radius), pupil=tuple(part.axis.tolist()))
         elif kind == "eye":
             kind = "other"
         set_uniforms(self._program, kind=_KINDS[kind])
-        array.render()
+        self._faces[k].render(self._arrays[k], self._levels[k])
 
 
 def _detail(head: Head, part: Part) -> Floats:

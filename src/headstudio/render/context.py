@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import moderngl
 
 from ..resources import shader
@@ -33,23 +35,32 @@ def is_software(context: moderngl.Context) -> bool:
     return "llvmpipe" in context.info["GL_RENDERER"]
 
 
-def load_program(context: moderngl.Context, vertex: str, fragment: str) -> moderngl.Program:
+def load_program(
+    context: moderngl.Context, vertex: str, fragment: str, choices: Mapping[str, int] | None = None
+) -> moderngl.Program:
     """The program made of two shaders below ``shaders/``; ``#include "common/x.glsl"`` brings in a shared piece.
 
-    The uniform block ``Scene``, if the program has it, is bound to slot 0. Raises RenderError with the compiler's words
-    if a shader does not compile.
+    choices: what the fragment shader finds defined. A processor works out both sides of what is asked at every pixel, but
+    of what is asked when the shader is compiled only the one. The uniform block ``Scene``, if the program has it, is bound
+    to slot 0. Raises RenderError with the compiler's words if a shader does not compile.
     """
     for include in sorted(shader("common").glob("*.glsl")):
         context.includes[f"common/{include.name}"] = include.read_text()
     try:
         program = context.program(
-            vertex_shader=shader(vertex).read_text(), fragment_shader=shader(fragment).read_text()
+            vertex_shader=shader(vertex).read_text(),
+            fragment_shader=_with_choices(shader(fragment).read_text(), choices or {}),
         )
     except moderngl.Error as error:
         raise RenderError(f"{vertex} with {fragment}: {error}") from None
     if "Scene" in program:
         program["Scene"].binding = 0  # type: ignore[union-attr]
     return program
+
+
+def _with_choices(source: str, choices: Mapping[str, int]) -> str:
+    version, _, rest = source.partition("\n")
+    return "\n".join([version, *(f"#define {name} {value}" for name, value in choices.items()), rest])
 
 
 def release(context: moderngl.Context, *objects: moderngl.Framebuffer | moderngl.Texture | moderngl.Texture3D) -> None:

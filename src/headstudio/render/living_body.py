@@ -11,7 +11,8 @@ from ..wrinkle.living_skin import LivingSkin, SkinSurface
 from .body_parts import BodyParts, hidden_of_head
 from .hair_ground import Growth, ground_cover, same_ground
 from .skin_body import SkinBody, SkinPrograms
-from .skin_shape import MOST_HIDDEN, pose_of, shape_of, smooth_pose_of
+from .skin_shape import MOST_HIDDEN, HeadShape, head_shape, pose_of, shape_of, smooth_pose_of
+from .view import View
 
 
 class LivingBody(SkinBody):
@@ -27,15 +28,17 @@ class LivingBody(SkinBody):
         """known: one that was drawn before, of which the same head or the same fine wrinkles are taken over."""
         self.surface = surface
         self.head = surface.head
-        known_head = known if known is not None and known.head is self.head else None
+        same_head = known is not None and known.head is self.head
         self._hidden: tuple[Floats, list[Floats]] = (
-            known_head._hidden if known_head else hidden_of_head(context, self.head)
+            known._hidden if known and same_head else hidden_of_head(context, self.head)
         )
         hidden, hidden_parts = self._hidden
-        super().__init__(context, programs, shape_of(surface, hidden), self.head.skin, known)
+        same_map = known is not None and known.surface.bed.layout is surface.bed.layout
+        self._of_head: HeadShape = known._of_head if known and same_map else head_shape(surface, hidden)
+        super().__init__(context, programs, shape_of(surface, self._of_head), self.head.skin, known)
         parts_hidden = [np.minimum(part, MOST_HIDDEN) for part in hidden_parts]
         self._parts: BodyParts = (
-            known_head._parts if known_head else BodyParts(context, programs.part, self.head, parts_hidden)
+            known._parts if known and same_head else BodyParts(context, programs.part, self.head, parts_hidden)
         )
         self._shown: tuple[LivingSkin, str] | None = None
         self._shown_smooth: tuple[LivingSkin, str] | None = None
@@ -45,6 +48,11 @@ class LivingBody(SkinBody):
         if not same_ground(growth, self.growth):
             self.cover(self.surface.spread(ground_cover(self.head, growth)))
         self.growth = growth
+
+    def look_from(self, view: View, shift: Floats, height: int) -> None:
+        """Be as detailed as the next picture needs, ``height`` pixels high, of the head moved by ``shift`` [m], (3,)."""
+        super().look_from(view, shift, height)
+        self._parts.look_from(view, shift, height)
 
     def pose(self, skin: LivingSkin, look: Look) -> None:
         """Take the pose of ``skin``, of this body's surface; sent again only for another object or other figures shown."""

@@ -107,6 +107,7 @@ class Renderer:
             low, high = limb.positions.min(axis=0), limb.positions.max(axis=0)
             light = light_view(look, (low + high) / 2, float(np.linalg.norm(high - low)) / 2)
             view, maps = camera_view(camera, targets.size[0] / targets.size[1]), self._maps_for(look.shadow_size)
+            self._limb.look_from(view, np.zeros(3), targets.scene.height)
             self._scene_block.write(scene_block(view, light, HeadFrame(), look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
             self._cast_shadows(self._limb, None, look, maps)
@@ -167,6 +168,7 @@ class Renderer:
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
             view = camera_view(camera, targets.size[0] / targets.size[1])
+            body.look_from(view, stage.frame.translation, targets.scene.height)
             strands = self._strands.pull(stage, look, view, targets.scene.height, final=self._final is not None)
             worn = self._pull_adornments(stage, look)
             maps = self._maps_for(look.shadow_size)
@@ -258,10 +260,10 @@ class Renderer:
         self, body: Body | SkinBody | None, view: View, look: Look, targets: PictureTargets, skin: SkinSettings
     ) -> moderngl.Framebuffer:
         """Returns the canvas that the rest of the picture is drawn on: the scene, or one of several samples a pixel."""
-        surface = targets.surface if body is None else body.surface_target(targets)
-        with self.context.scope(surface, moderngl.DEPTH_TEST):
-            surface.clear(view.far, depth=1.0)
-            if body is not None:
+        surface, bare = (targets.surface, targets.bare) if body is None else body.surface_targets(targets)
+        bare.clear(view.far, depth=1.0)
+        if body is not None:
+            with self.context.scope(surface, moderngl.DEPTH_TEST):
                 body.draw_surface(view, look, skin, targets)
         targets.scene.depth_mask = False
         targets.scene.clear(0.0, 0.0, 0.0, 0.0)

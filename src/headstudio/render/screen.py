@@ -10,8 +10,11 @@ from .context import load_program, set_uniforms
 class ScreenPasses:
     """The fragment shaders ``shaders/ROOM/NAME.frag``, ready to be drawn over a framebuffer."""
 
-    def __init__(self, context: moderngl.Context, *names: str, room: str = "picture") -> None:
-        programs = {name: load_program(context, "picture/screen.vert", f"{room}/{name}.frag") for name in names}
+    def __init__(self, context: moderngl.Context, *names: str, room: str = "picture", **choices: int) -> None:
+        """choices: what the shaders find defined."""
+        programs = {
+            name: load_program(context, "picture/screen.vert", f"{room}/{name}.frag", choices) for name in names
+        }
         self._arrays = {name: context.vertex_array(program, []) for name, program in programs.items()}
 
     def draw(self, name: str, **uniforms: object) -> None:

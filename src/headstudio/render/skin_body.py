@@ -10,11 +10,12 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..scene.settings import Look
-from ..scene.skin_settings import MODELS, SkinSettings
+from ..scene.skin_settings import SkinSettings
 from . import lafortune
-from .body import BodyPrograms, draw_covering
+from .body import BodyPrograms, prepare_covering
 from .buffers import bytes_of, floats_of, indices_of
 from .context import load_program, set_uniforms
+from .detailed_faces import DetailedFaces
 from .fine_relief import FineRelief
 from .hair_ground import Growth, ground_colour
 from .openings import Openings
@@ -35,13 +36,22 @@ class SkinPrograms:
         self.covering = body.covering
         self.part = body.part
         self.surface = load_program(context, "skin/surface.vert", "skin/surface.frag")
-        self.screens = ScreenPasses(context, "light", "scatter", room="skin")
+        self.scatter = ScreenPasses(context, "scatter", room="skin")
+        self._context = context
+        self._lights: dict[tuple[tuple[str, int], ...], ScreenPasses] = {}
         table = scattering_table()
         self.scattered = context.texture(table.shape[1::-1], 3, table.astype(np.float16), dtype="f2")
         self.scattered.repeat_x = self.scattered.repeat_y = False
         self.scale = context.texture((256, 1), 3, dtype="f1")
         self.scale.repeat_x = False
         self._scale_of = ""
+
+    def light(self, **choices: int) -> ScreenPasses:
+        """The pass that lights skin, made for these choices when they are first asked for; see skin/light.frag."""
+        key = tuple(choices.items())
+        if key not in self._lights:
+            self._lights[key] = ScreenPasses(self._context, "light", room="skin", **choices)
+        return self._lights[key]
 
     def set_scale(self, shows: str) -> None:
         """Put the colours of a scale into its texture."""
@@ -61,25 +71,28 @@ class SkinBody:
         whole: TriangleMesh,
         known: SkinBody | None = None,
     ) -> None:
-        """whole: the skin at rest, as a surface that is open only where it ends. known: a body with perhaps the same fine
-        wrinkles, whose textures are large."""
+        """whole: the skin at rest, as a surface that is open only where it ends. known: a body with perhaps the same whole,
+        or the same fine wrinkles, whose textures are large."""
         self.context = context
         self.programs = programs
         self.growth: Growth = None
-        self._openings = Openings(whole)
+        self._whole = whole
+        self._openings: Openings = known._openings if known and known._whole is whole else Openings(whole)
         self._fine = shape.fine
         same_fine = known is not None and known._fine is shape.fine
         self._relief: FineRelief = known._relief if known and same_fine else FineRelief(context, shape.fine)
-        self._order = order = order_of_use(shape.faces, len(shape.rest))
+        surface = shape.surface
+        self._order = order = order_of_use(surface.faces, len(surface.points))
         place = np.empty_like(order)
         place[order] = np.arange(len(order))
-        body = np.column_stack([shape.rest, shape.uv, shape.turning, shape.curvature, shape.mapped])[order]
+        body = np.column_stack([surface.points, shape.uv, shape.turning, shape.curvature, shape.mapped])[order]
         self._constants = [
             (context.buffer(floats_of(body)), "3f 2f 3f", "rest", "uv", "body"),
             (context.buffer(bytes_of(shape.painted[order])), "4f1", "paint"),
         ]
         self._cover = context.buffer(bytes_of(np.zeros(len(order))))
-        self._faces = context.buffer(indices_of(place[shape.faces]))
+        self._faces = DetailedFaces(context, surface, place)
+        self._level = -1
         self._posed = self._array()
         self._smooth: _PosedSkin | None = None
         posed = [
@@ -89,7 +102,7 @@ class SkinBody:
         self._shadow = context.vertex_array(
             programs.depth, posed, context.buffer(indices_of(place[shape.shadow_faces]))
         )
-        self._covering = context.vertex_array(programs.covering, posed, self._faces)
+        self._covering = context.vertex_array(programs.covering, posed, self._faces.buffer)
 
     def cover(self, cover: Floats) -> None:
         """How densely hair stands on every vertex, 0 to 1, (N,), from now on."""
@@ -105,13 +118,17 @@ class SkinBody:
             self._smooth = self._array()
         self._smooth.write(pose)
 
+    def look_from(self, view: View, shift: Floats, height: int) -> None:
+        """Be as detailed as the next picture needs, ``height`` pixels high, of the body moved by ``shift`` [m], (3,)."""
+        self._level = self._faces.level_for(view, shift, height)
+
     def draw_depth(self) -> None:
         """The body into the shadow map."""
         self._shadow.render()
 
-    def surface_target(self, targets: PictureTargets) -> moderngl.Framebuffer:
-        """Where ``draw_surface`` draws."""
-        return targets.skin.surface
+    def surface_targets(self, targets: PictureTargets) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
+        """Where ``draw_surface`` draws, and what of it is to be cleared before."""
+        return targets.skin.surface, targets.skin.bare
 
     def draw_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
         """What the skin is like, into the framebuffer in use; texture 2 is the strands."""
@@ -119,15 +136,15 @@ class SkinBody:
         # Half of the triangles face away, and their inside is only seen through an opening.
         if not self._openings.shown_to(view.eye):
             self.context.enable(moderngl.CULL_FACE)
-        target = self.surface_target(targets)
+        target = targets.skin.surface
         width, height = target.size
         border = round(look.split * width)
         if border < width:
             target.scissor = (border, 0, width - border, height)
-            self._posed.draw(fine=True)
+            self._draw_pose(self._posed, fine=True)
         if border > 0:
             target.scissor = (0, 0, border, height)
-            (self._smooth or self._posed).draw(fine=False)
+            self._draw_pose(self._smooth or self._posed, fine=False)
         target.scissor = (0, 0, width, height)
         self.context.disable(moderngl.CULL_FACE)
 
@@ -160,17 +177,20 @@ class SkinBody:
         self.context.depth_func = ">"
         lit = targets.scattering.lit if apart else targets.scene
         with self.context.scope(lit, moderngl.DEPTH_TEST):
-            programs.screens.draw(
+            light = programs.light(
+                LAFORTUNE=int(skin.model == "lafortune"), SHOWS_VALUE=int(shows_value), KEPT_APART=int(apart)
+            )
+            light.draw(
                 "light", shadow_map=0, light_map=1, normals=3, paint=4, distances=5, places_in_map=6, states=7, slopes=8,
                 pores=9, heights=10, scattered=11, scale=12, size=(float(width), float(height)),
                 forward=tuple(view.forward), upward=tuple(view.up / view.focal),
                 sideward=tuple(view.right * width / height / view.focal),
                 skin_colour=tuple(colour), hair_colour=tuple(ground_colour(self.growth, look)), haemoglobin=tuple(HAEMOGLOBIN),
                 flushed=skin.flush, blood_mean=BLOOD_MEAN, blood_flow=skin.blood_flow, creases=skin.creases, gloss=skin.gloss,
-                roughness=skin.roughness, scattering=skin.scattering, steepest=STEEPEST, model=MODELS.index(skin.model),
+                roughness=skin.roughness, scattering=skin.scattering, steepest=STEEPEST,
                 tint=tuple(colour / lafortune.MEASURED_ALBEDO), measured_diffuse=tuple(lafortune.DIFFUSE),
-                shows_value=shows_value, texels=float(relief.size), metres=relief.metres,
-                mean_heights=relief.mean_heights, relief=skin.relief, kept_apart=apart,
+                texels=float(relief.size), metres=relief.metres,
+                mean_heights=relief.mean_heights, relief=skin.relief,
                 **lafortune_uniforms(),
             )  # fmt: skip
         if apart:
@@ -194,23 +214,29 @@ class SkinBody:
         scattering.entered.use(3)
         targets.distance.use(4)
         with self.context.scope(scattering.row, moderngl.DEPTH_TEST):
-            self.programs.screens.draw("scatter", along=(metre, 0.0), **known)
+            self.programs.scatter.draw("scatter", along=(metre, 0.0), **known)
         scattering.spread.use(3)
         with self.context.scope(targets.scene, moderngl.DEPTH_TEST | moderngl.BLEND):
             # Colours add up, coverage stays.
             self.context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ZERO, moderngl.ONE  # type: ignore[assignment]
-            self.programs.screens.draw("scatter", along=(0.0, metre), **known)
+            self.programs.scatter.draw("scatter", along=(0.0, metre), **known)
 
     def cover_samples(self, targets: PictureTargets) -> None:
         """Draw the lit skin of ``targets`` into the framebuffer in use, which has several samples a pixel."""
-        draw_covering(self._covering, targets)
+        prepare_covering(self.programs.covering, targets)
+        self._faces.render(self._covering, self._level)
 
     def draw_parts(self, look: Look) -> None:
         """What belongs to the body and is no skin, into the framebuffer in use: nothing, unless a body has parts."""
 
+    def _draw_pose(self, posed: _PosedSkin, fine: bool) -> None:
+        """Into the framebuffer in use."""
+        set_uniforms(self.programs.surface, wrinkled=float(fine))
+        self._faces.render(posed.array, self._level)
+
     def _array(self) -> _PosedSkin:
         constants: list[tuple[object, ...]] = [*self._constants, (self._cover, "1f1", "cover")]
-        return _PosedSkin(self.context, self.programs, self._order, constants, self._faces)
+        return _PosedSkin(self.context, self.programs.surface, self._order, constants, self._faces.buffer)
 
 
 class _PosedSkin:
@@ -219,20 +245,19 @@ class _PosedSkin:
     def __init__(
         self,
         context: moderngl.Context,
-        programs: SkinPrograms,
+        program: moderngl.Program,
         order: Ints,
         constants: list[tuple[object, ...]],
         faces: moderngl.Buffer,
     ) -> None:
         """order: the vertices as they are drawn, (N,)."""
-        self._program = programs.surface
         self._order = order
         # What comes in double precision and column by column, as it goes to the graphics card.
         self._rows = np.empty((len(order), 10), dtype=np.float32)
         self._ordered = np.empty_like(self._rows)
         self.vertices = context.buffer(reserve=self._rows.nbytes, dynamic=True)
         changing = (self.vertices, "3f 3f 4f", "position", "normal", "state")
-        self._array = context.vertex_array(self._program, [changing, *constants], faces)
+        self.array = context.vertex_array(program, [changing, *constants], faces)
 
     def write(self, pose: SkinPose) -> None:
         """Send a pose."""
@@ -240,11 +265,6 @@ class _PosedSkin:
         rows[:, :3], rows[:, 3:6], rows[:, 6:8] = pose.positions, pose.normals, pose.amplitudes
         rows[:, 8], rows[:, 9] = pose.hidden, pose.value
         self.vertices.write(rows.take(self._order, axis=0, out=self._ordered, mode="clip"))
-
-    def draw(self, fine: bool) -> None:
-        """Into the framebuffer in use."""
-        set_uniforms(self._program, wrinkled=float(fine))
-        self._array.render()
 
 
 def lafortune_uniforms() -> dict[str, object]:

@@ -12,7 +12,10 @@ from ..head.mesh import Floats, Ints, TriangleMesh
 from ..wrinkle.fine_wrinkles import FineWrinkles
 from ..wrinkle.limb_skin import LimbSkin, PosedLimb
 from ..wrinkle.living_skin import LivingSkin, SkinSurface
-from .skin_paint import coarse_faces, paint
+from ..wrinkle.refinement import unique_edges
+from ..wrinkle.vectors import unit
+from .detail import Surface, casting_shadows, neighbours_together
+from .skin_paint import paint
 from .skin_values import limb_values, shown_values
 
 MOST_HIDDEN = 0.95
@@ -21,8 +24,6 @@ MOST_HIDDEN = 0.95
 BLOOD_MEAN = 0.35
 """How much blood is painted where skin is neither flushed nor pale."""
 
-# Details below this [m] are left out of the body that casts shadows.
-_SHADOW_DETAIL = 0.004
 # What counts as the surroundings of a place in a furrow [m].
 _BESIDE = 0.003
 # Lips keep their light as far as this behind where they meet, and a mouth is dark beyond the second [m].
@@ -36,8 +37,6 @@ _BLOTCH_SIZES = (0.045, 0.025, 0.014)
 _BLOTCH_WAVES = 12
 _BLOTCH_DEPTH = 0.06
 _BLOTCH_SEED = 5
-# Cells along an edge of the Z-curve, as a power of two.
-_Z_BITS = 10
 # So many times curvature is evened out along edges: it is that of the face, not of a triangle.
 _EVENED = 8
 
@@ -46,15 +45,14 @@ _EVENED = 8
 class SkinShape:
     """What stays the same of a skin that is drawn: N vertices, M triangles.
 
-    faces: (M, 3). shadow_faces: fewer, over the same vertices. rest: positions at rest [m], (N, 3). uv: texture
-    coordinates, (N, 2). mapped: how far inside the map, 0 at its border to 1, (N,). turning: how far the skin turns with
-    the head, (N,). curvature: of the skin at rest, positive where it bulges [1/m], (N,). painted: hidden from the sky,
-    lips, brows and blood, 0 to 1, (N, 4). fine: wrinkles of the map, or None.
+    surface: as it is at rest; what is painted on it decides how detailed it is drawn. shadow_faces: over the same
+    vertices. uv: texture coordinates, (N, 2). mapped: how far inside the map, 0 at its border to 1, (N,). turning: how
+    far the skin turns with the head, (N,). curvature: of the skin at rest, positive where it bulges [1/m], (N,).
+    painted: hidden from the sky, lips, brows and blood, 0 to 1, (N, 4). fine: wrinkles of the map, or None.
     """
 
-    faces: Ints
+    surface: Surface
     shadow_faces: Ints
-    rest: Floats
     uv: Floats
     mapped: Floats
     turning: Floats
@@ -76,20 +74,42 @@ class SkinPose:
     value: Floats
 
 
-def shape_of(surface: SkinSurface, hidden: Floats) -> SkinShape:
-    """The shape of a head's living skin. hidden: of the sky, of every vertex of the head's skin, (n,)."""
-    head = surface.head
+@dataclass(frozen=True, eq=False)
+class HeadShape:
+    """What the skins of one head have in common, whatever their furrows: values at the head's n vertices, (n, ...)."""
+
+    shadow_faces: Ints
+    normals: Floats
+    mapped: Floats
+    curvature: Floats
+    painted: Floats
+
+
+def head_shape(surface: SkinSurface, hidden: Floats) -> HeadShape:
+    """Of the head of a skin. hidden: of the sky, of every vertex of the head's skin, (n,)."""
+    head, skin = surface.head, surface.head.skin
     lips, brows, flush = paint(head).T
-    painted = np.column_stack([np.minimum(hidden, MOST_HIDDEN), lips, brows, uneven_blood(head.skin.vertices, flush)])
+    return HeadShape(
+        shadow_faces=casting_shadows(skin),
+        normals=skin.vertex_normals,
+        mapped=faded_in(skin.vertices, surface.inside),
+        curvature=curvature_of(skin),
+        painted=np.column_stack([np.minimum(hidden, MOST_HIDDEN), lips, brows, uneven_blood(skin.vertices, flush)]),
+    )
+
+
+def shape_of(surface: SkinSurface, head: HeadShape) -> SkinShape:
+    """The shape of a head's living skin."""
+    painted = surface.spread(head.painted)
+    faces = neighbours_together(surface.faces, surface.rest)
     return SkinShape(
-        faces=neighbours_together(surface.faces, surface.rest),
-        shadow_faces=neighbours_together(coarse_faces(head.skin, _SHADOW_DETAIL), surface.rest),
-        rest=surface.rest,
+        surface=Surface(faces, surface.rest, unit(surface.spread(head.normals)), painted[:, 1:3]),
+        shadow_faces=head.shadow_faces,
         uv=surface.uv,
-        mapped=faded_in(surface.rest, surface.mapped),
-        turning=surface.spread(head.head_weight),
-        curvature=surface.spread(curvature_of(head.skin)),
-        painted=surface.spread(painted),
+        mapped=surface.spread(head.mapped),
+        turning=surface.spread(surface.head.head_weight),
+        curvature=surface.spread(head.curvature),
+        painted=painted,
         fine=surface.fine,
     )
 
@@ -105,9 +125,13 @@ def limb_shape_of(skin: LimbSkin, hidden: Floats) -> SkinShape:
     none = np.zeros(len(limb.vertices))
     painted = np.column_stack([np.minimum(hidden, MOST_HIDDEN), none, none, uneven_blood(limb.vertices, none)])
     return SkinShape(
-        faces=neighbours_together(skin.opened.faces, skin.opened.vertices),
-        shadow_faces=neighbours_together(skin.opened.faces, skin.opened.vertices),
-        rest=skin.opened.vertices,
+        surface=Surface(
+            neighbours_together(skin.opened.faces, skin.opened.vertices),
+            skin.opened.vertices,
+            limb.vertex_normals[source],
+            np.zeros((len(source), 0)),
+        ),
+        shadow_faces=casting_shadows(skin.opened),
         uv=skin.uv,
         mapped=faded_in(limb.vertices, inside)[source] * on_map,
         turning=np.zeros(len(source)),
@@ -126,8 +150,7 @@ def pose_of(skin: LivingSkin, shows: str) -> SkinPose:
 def smooth_pose_of(skin: LivingSkin, shows: str) -> SkinPose:
     """The same skin without a wrinkle."""
     surface = skin.surface
-    normals = surface.spread(surface.head.skin.moved(skin.posed).vertex_normals)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    normals = unit(surface.spread(surface.head.skin.moved(skin.posed).vertex_normals))
     hidden = surface.spread(hidden_in_mouth(skin.drawn_in))
     return SkinPose(surface.spread(skin.posed), normals, np.zeros((len(normals), 2)), hidden, shown_values(shows, skin))
 
@@ -154,19 +177,6 @@ def uneven_blood(points: Floats, flush: Floats) -> Floats:
     return np.clip(BLOOD_MEAN + (1 - BLOOD_MEAN) * flush + _BLOTCH_DEPTH * blotches, 0.0, 1.0)
 
 
-def neighbours_together(faces: Ints, points: Floats) -> Ints:
-    """The same triangles, (m, 3), in an order that keeps those together that lie together (a Z-curve through space).
-
-    A vertex is worked out again for every few hundred triangles that use it; so this makes drawing faster by a quarter.
-    """
-    middles = points[faces].mean(axis=1)
-    low = middles.min(axis=0)
-    cells = ((middles - low) / max(float((middles - low).max()), 1e-12) * (2**_Z_BITS - 1)).astype(np.int64)
-    bits = np.arange(_Z_BITS)
-    curve = sum(((cells[:, k, None] >> bits & 1) << (3 * bits + k)).sum(axis=1) for k in range(3))
-    return faces[np.argsort(curve, kind="stable")]
-
-
 def order_of_use(faces: Ints, count: int) -> Ints:
     """All of ``count`` vertices as triangles, (m, 3), first need them, those that none needs last: (count,).
 
@@ -178,7 +188,8 @@ def order_of_use(faces: Ints, count: int) -> Ints:
 
 
 def faded_in(rest: Floats, mapped: Floats) -> Floats:
-    """From 0 where the skin is not mapped to 1 at some distance from there, (N,). rest: positions [m], (N, 3)."""
+    """From 0 where the skin is not mapped to 1 at some distance from there, (N,). rest: positions [m], (N, 3). mapped:
+    above 0 where it is, (N,)."""
     outside = rest[mapped <= 0]
     if len(outside) == 0:
         return np.ones(len(rest))
@@ -190,7 +201,7 @@ def faded_in(rest: Floats, mapped: Floats) -> Floats:
 
 def curvature_of(mesh: TriangleMesh) -> Floats:
     """Mean curvature at every vertex, positive where the surface bulges [1/m], (n,), over some triangles around."""
-    edges = np.unique(np.sort(mesh.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
+    edges, _ = unique_edges(mesh.faces)
     a, b = edges.T
     along = mesh.vertices[b] - mesh.vertices[a]
     turn = mesh.vertex_normals[b] - mesh.vertex_normals[a]

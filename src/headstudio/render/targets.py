@@ -18,7 +18,8 @@ class PictureTargets:
 
     ``scene`` is ``supersampling`` times as large as ``size``, and so is ``surface``, which holds what the skin is like at
     every pixel before any light falls on it: its normal and how densely hair grows on it, its paint, and its distance
-    from the eye [m], which the hair reads too while the depth buffer is in use. They share their depth. ``reduced`` is the
+    from the eye [m], which the hair reads too while the depth buffer is in use. They share their depth. ``bare`` is what of
+    ``surface`` must be clear where there is no body: the distance. ``reduced`` is the
     colour at the size of the picture: the same texture, or the mean of it when there is supersampling.
     """
 
@@ -30,6 +31,7 @@ class PictureTargets:
     reduced: moderngl.Texture
     reduced_target: moderngl.Framebuffer
     surface: moderngl.Framebuffer
+    bare: moderngl.Framebuffer
     normal: moderngl.Texture
     paint: moderngl.Texture
     distance: moderngl.Texture
@@ -43,7 +45,8 @@ class PictureTargets:
         place = _texture(context, fine, 2, "f4", moderngl.NEAREST)
         state = _texture(context, fine, 4, "f1", moderngl.NEAREST)
         surface = context.framebuffer([self.normal, self.paint, self.distance, place, state], self.depth)
-        return SkinTargets(surface, place, state)
+        bare = context.framebuffer([self.distance, place], self.depth)
+        return SkinTargets(surface, bare, place, state)
 
     @cached_property
     def scattering(self) -> ScatteringTargets:
@@ -60,9 +63,11 @@ class PictureTargets:
 @dataclass(frozen=True, eq=False)
 class SkinTargets:
     """What living skin is like at every pixel, in ``surface``: where it lies in the map of its fine wrinkles (the whole
-    precision of single floats: a close look is nearer than a texel), and how far these are grown."""
+    precision of single floats: a close look is nearer than a texel), and how far these are grown. ``bare``: what must be
+    clear where there is no skin, since the place of a pixel is compared with that of its neighbours."""
 
     surface: moderngl.Framebuffer
+    bare: moderngl.Framebuffer
     place: moderngl.Texture
     state: moderngl.Texture
 
@@ -113,6 +118,7 @@ def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -
         reduced=reduced,
         reduced_target=context.framebuffer([reduced]),
         surface=context.framebuffer([normal, paint, distance], depth),
+        bare=context.framebuffer([distance], depth),
         normal=normal,
         paint=paint,
         distance=distance,

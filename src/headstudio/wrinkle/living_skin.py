@@ -66,14 +66,18 @@ class SkinSurface:
         return self.spread(whole)
 
     @cached_property
+    def inside(self) -> np.ndarray:
+        """Which of the head's vertices lie inside the mapped part and not at its border, (n,)."""
+        layout = self.bed.layout
+        inside = np.zeros(len(layout.skin.vertices), dtype=bool)
+        inside[layout.part.vertices] = True
+        inside[layout.skin.faces[~layout.mapped]] = False
+        return inside
+
+    @cached_property
     def mapped(self) -> Floats:
         """How far every vertex of the refined skin lies inside the mapped part, 0 at its border to 1, (N,)."""
-        layout = self.bed.layout
-        inside = np.zeros(len(layout.skin.vertices))
-        inside[layout.part.vertices] = 1.0
-        border = np.unique(layout.skin.faces[~layout.mapped])
-        inside[border] = 0.0
-        return self.spread(inside)
+        return self.spread(self.inside.astype(np.float64))
 
 
 @dataclass(frozen=True, eq=False)

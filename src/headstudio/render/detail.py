@@ -1,0 +1,146 @@
+"""The same surface with fewer triangles, for an eye to which the rest would be smaller than a pixel.
+
+Vertices are gathered in clusters, as large as a pixel where the surface bends, where something is painted on it and where
+its own triangles are small (furrows), and larger where it is flat and plain. What is left is one vertex of every cluster,
+and the triangles between three clusters. Clusters spread along edges only: so lips that touch stay two, and there is no
+crack.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components, dijkstra
+
+from ..head.mesh import Floats, Ints, TriangleMesh
+
+# Clusters are at least and at most so many pixels wide.
+_LEAST, _MOST = 1.3, 5.0
+# Between clusters a triangle may leave the surface by this part of a pixel,
+_ASTRAY = 0.4
+# what is painted may change by this much,
+_PAINT_STEP = 0.3
+# and so many edges may go into one.
+_EDGES = 4.0
+# Shorter edges [m] say nothing about how the surface bends.
+_SHORT = 1e-7
+# Sizes of clusters, and of pixels for which there is a level of detail, come in steps of the root of two.
+_STEPS = 2
+_FINEST = 0.25e-3
+# A level is as good for pixels that are a little smaller: this part of a step.
+_EARLY = 0.25
+_CELL_BITS = 16
+# Cells along an edge of the Z-curve, as a power of two.
+_Z_BITS = 10
+# What would be smaller than this [m] is left out of a body that casts shadows.
+_SHADOW_PIXEL = 0.003
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What is drawn: faces, (m, 3); points [m] and unit normals, (n, 3); what is painted on it, 0 to 1, (n, d)."""
+
+    faces: Ints
+    points: Floats
+    normals: Floats
+    painted: Floats
+
+
+def level_of(pixel: float) -> int:
+    """The level of detail for pixels of this size [m]; below 0 nothing may be left out."""
+    return int(np.floor(_STEPS * np.log2(max(pixel, 1e-9) / _FINEST) + _EARLY))
+
+
+def faces_of_level(surface: Surface, level: int) -> Ints:
+    """Faces over the same vertices that show all there is to see at this level, (k, 3)."""
+    return surface.faces if level < 0 else coarser(surface, _FINEST * 2 ** (level / _STEPS))
+
+
+def casting_shadows(mesh: TriangleMesh) -> Ints:
+    """Faces over the same vertices whose shadow is that of the mesh, (k, 3)."""
+    plain = np.zeros((len(mesh.vertices), 0))
+    return coarser(Surface(mesh.faces, mesh.vertices, mesh.vertex_normals, plain), _SHADOW_PIXEL)
+
+
+def coarser(surface: Surface, pixel: float) -> Ints:
+    """Faces over the same vertices that look the same in pixels of this size [m], (k, 3)."""
+    start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
+    along = surface.points[end] - surface.points[start]
+    length = np.sqrt(np.einsum("ij,ij->i", along, along)) + _SHORT
+    size = _sizes(surface, start, end, length, pixel)
+    seeds = _seeds(surface.points, start, end, size)
+    # Every vertex goes to the seed that is nearest along edges, as measured in clusters.
+    count = len(size)
+    steps = sparse.csr_array((2 * length / (size[start] + size[end]), (start, end)), shape=(count, count))
+    _, _, nearest = dijkstra(steps, indices=seeds, min_only=True, return_predecessors=True)
+    corners = np.where(nearest < 0, np.arange(count), nearest)[surface.faces]
+    return _once(corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)], count)
+
+
+def _sizes(surface: Surface, start: Ints, end: Ints, length: Floats, pixel: float) -> Floats:
+    """How wide the cluster of every vertex may be [m], (n,), in steps."""
+    turn = surface.normals[end] - surface.normals[start]
+    change = np.abs(surface.painted[end] - surface.painted[start]).max(axis=1, initial=0.0)
+    bend = _most(np.sqrt(np.einsum("ij,ij->i", turn, turn)) / length, start, end, len(surface.points))
+    paint = _most(change / length, start, end, len(surface.points))
+    degree = np.maximum(np.bincount(start, minlength=len(surface.points)), 1)
+    edge = np.bincount(start, length, minlength=len(surface.points)) / degree
+    with np.errstate(divide="ignore"):
+        # A chord s of a circle of curvature k leaves it by k s^2 / 8.
+        wanted = np.minimum(np.sqrt(8 * _ASTRAY * pixel / bend), _PAINT_STEP / paint)
+    wanted = np.clip(np.minimum(wanted, _EDGES * edge), _LEAST * pixel, _MOST * pixel)
+    steps: Floats = _LEAST * pixel * 2.0 ** (np.floor(_STEPS * np.log2(wanted / (_LEAST * pixel)) + 1e-9) / _STEPS)
+    return steps
+
+
+def _most(values: Floats, start: Ints, end: Ints, count: int) -> Floats:
+    """The largest of the values at the edges from ``start`` to ``end`` that meet at each vertex, (count,)."""
+    most = np.zeros(count)
+    np.maximum.at(most, start, values)
+    np.maximum.at(most, end, values)
+    return most
+
+
+def _seeds(points: Floats, start: Ints, end: Ints, size: Floats) -> Ints:
+    """One vertex for the vertices that share a cube of their size and are joined by edges within it, (k,)."""
+    cells = np.floor((points - points.min(axis=0)) / size[:, None]).astype(np.int64)
+    key = np.unique(size, return_inverse=True)[1]
+    for axis in cells.T:
+        key = (key << _CELL_BITS) + axis
+    same = key[start] == key[end]
+    joined = sparse.coo_array((np.ones(same.sum(), bool), (start[same], end[same])), shape=(len(points),) * 2)
+    count, cluster = connected_components(joined, directed=False)
+    held = np.bincount(cluster)
+    middle = np.stack([np.bincount(cluster, axis) / held for axis in points.T], axis=1)
+    off = np.einsum("ij,ij->i", points - middle[cluster], points - middle[cluster])
+    order = np.lexsort((off, cluster))
+    return order[np.searchsorted(cluster[order], np.arange(count))]
+
+
+def _once(faces: Ints, count: int) -> Ints:
+    """Each triangle once, (k, 3), in their order, and none of two that lie back to back."""
+    first = faces.argmin(axis=1)
+    turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
+    low, high = np.sort(turned[:, 1:], axis=1).T
+    _, kept, which = np.unique((turned[:, 0] * count + low) * count + high, return_index=True, return_inverse=True)
+    outward = np.bincount(which, np.where(turned[:, 1] == low, 1, -1), minlength=len(kept))
+    single = turned[kept]
+    facing = np.where((outward > 0) == (single[:, 1] < single[:, 2]), 1, -1)
+    single = np.where(facing[:, None] > 0, single, single[:, [0, 2, 1]])
+    shown = np.flatnonzero(outward)
+    return single[shown[np.argsort(kept[shown])]]
+
+
+def neighbours_together(faces: Ints, points: Floats) -> Ints:
+    """The same triangles, (m, 3), in an order that keeps those together that lie together (a Z-curve through space).
+
+    A vertex is worked out again for every few hundred triangles that use it; so this makes drawing faster by a quarter.
+    """
+    middles = points[faces].mean(axis=1)
+    low = middles.min(axis=0)
+    cells = ((middles - low) / max(float((middles - low).max()), 1e-12) * (2**_Z_BITS - 1)).astype(np.int64)
+    bits = np.arange(_Z_BITS)
+    curve = sum(((cells[:, k, None] >> bits & 1) << (3 * bits + k)).sum(axis=1) for k in range(3))
+    return faces[np.argsort(curve, kind="stable")]
