@@ -19,7 +19,7 @@ from ..head.mesh import Floats, Ints, TriangleMesh
 # Clusters are at least and at most so many pixels wide.
 _LEAST, _MOST = 1.3, 5.0
 # Between clusters a triangle may leave the surface by this part of a pixel,
-_ASTRAY = 0.4
+_ASTRAY = 0.25
 # what is painted may change by this much,
 _PAINT_STEP = 0.3
 # and so many edges may go into one.

@@ -62,14 +62,15 @@ class Lids:
 
     def turns(self, upper: float, lower: float) -> Floats:
         """How far each vertex turns down [rad], (k,). upper, lower: 1 where the lids meet, 0 at rest, below 0 wider."""
-        return min(upper, 1.0) * self.fall - min(lower, 1.0) * self.rise
+        return turned_down(self.fall, self.rise, upper, lower)
 
-    def margin_turns(self, roots: Floats, upper: float, lower: float) -> Floats:
-        """How far down the margin turns where lashes have their roots, (k, 3) [m]: (k,) [rad]."""
+    def margin_beside(self, roots: Floats) -> tuple[Floats, Floats]:
+        """How far the margin falls and rises where lashes have their roots, (k, 3) [m], when its lid closes [rad], (k,)
+        each, as ``fall`` and ``rise`` do of the skin."""
         column, angle, _ = _polar(roots - self.centre, (self.left, self.up, self.forward))
         top, bottom = np.interp(column, _COLUMNS, self.top), np.interp(column, _COLUMNS, self.bottom)
-        fall, rise = (1.0 - _MEETING) * (top - bottom), _MEETING * (top - bottom)
-        return np.where(angle > 0.5 * (top + bottom), min(upper, 1.0) * fall, -min(lower, 1.0) * rise)
+        is_upper, opening = angle > 0.5 * (top + bottom), top - bottom
+        return np.where(is_upper, (1.0 - _MEETING) * opening, 0.0), np.where(is_upper, 0.0, _MEETING * opening)
 
     def turned(self, points: Floats, turn: Floats) -> Floats:
         """Points, (k, 3), turned down about the middle of the eye by ``turn`` [rad], (k,)."""
@@ -86,6 +87,11 @@ class Lids:
         distance = np.linalg.norm(away, axis=1)
         scale = np.maximum(self.clearance / np.maximum(distance, 1e-9), 1.0)
         return self.centre + scale[:, None] * away
+
+
+def turned_down(fall: Floats, rise: Floats, upper: float, lower: float) -> Floats:
+    """How far points turn down that fall and rise so far when lids close [rad], (k,); see ``Lids.turns``."""
+    return min(upper, 1.0) * fall - min(lower, 1.0) * rise
 
 
 def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:

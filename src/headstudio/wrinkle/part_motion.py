@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from ..head.head import Head, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from .jaw import Jaw, lower_share
-from .lids import Lids
+from .lids import Lids, turned_down
 
 # How many vertices of the skin carry a lash, and how evenly near ones share [m].
 _CARRIERS = 6
@@ -85,19 +85,24 @@ class LashMotion:
     def __init__(self, part: Part, head: Head, lids: Lids) -> None:
         self._part = part
         self._lids = lids
-        self._roots = part.mesh.vertices[_hair_roots(part.mesh, lids.centre)]
+        roots = part.mesh.vertices[_hair_roots(part.mesh, lids.centre)]
+        self._fall, self._rise = lids.margin_beside(roots)
         self._rest = head.skin.vertices[lids.vertices]
-        distance, near = cKDTree(self._rest).query(self._roots, k=_CARRIERS)
+        distance, near = cKDTree(self._rest).query(roots, k=_CARRIERS)
         weight = 1.0 / (distance + _SOFT) ** 2
         weight /= weight.sum(axis=1, keepdims=True)
+        carriers, used = np.unique(near, return_inverse=True)
         starts = np.arange(0, near.size + 1, _CARRIERS)
-        self._carried = sparse.csr_array((weight.ravel(), near.ravel(), starts), shape=(len(near), len(self._rest)))
+        self._carriers: Ints = carriers
+        self._carried = sparse.csr_array((weight.ravel(), used.ravel(), starts), shape=(len(roots), len(carriers)))
 
     def posed(self, positions: Floats, upper: float, lower: float) -> Part:
         """The part on the skin at ``positions`` [m], (n, 3), with the lids of its eye closed so far."""
         lids = self._lids
-        besides = positions[lids.vertices] - lids.turned(self._rest, lids.turns(upper, lower))
-        margin = lids.margin_turns(self._roots, upper, lower)
+        carriers = self._carriers
+        turns = turned_down(lids.fall[carriers], lids.rise[carriers], upper, lower)
+        besides = positions[lids.vertices[carriers]] - lids.turned(self._rest[carriers], turns)
+        margin = turned_down(self._fall, self._rise, upper, lower)
         vertices = lids.turned(self._part.mesh.vertices, margin) + self._carried @ besides
         return replace(self._part, mesh=self._part.mesh.moved(vertices))
 
