@@ -294,7 +294,10 @@ def export(
 @command("import")
 def import_(
     hair: Annotated[Path, typer.Argument(metavar="HAIR", help=".hair .data .npy .obj .ply .usd .rib .tfx")],
-    out: Annotated[Path | None, typer.Option(help="Where to write the strands as they lie on the head.")] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(help="Where to write the strands as they lie on the head, or a project with them."),
+    ] = None,
     points_per_strand: PerStrandOption = None,
     head: HeadOption = None,
 ) -> None:

@@ -50,6 +50,15 @@ def test_import_says_what_it_found(headstudio, tmp_path):
     assert np.quantile(np.linalg.norm(moved, axis=1), 0.95) < 2e-3, "hair of this head stays where it was"
 
 
+def test_imported_strands_are_the_hair_of_a_project(headstudio, tmp_path):
+    headstudio("export", "bob", str(tmp_path / "bob.usda"), *FEW)
+    project, back = str(tmp_path / "bob.headstudio"), str(tmp_path / "back.npy")
+    headstudio("import", str(tmp_path / "bob.usda"), "--head", "mannequin", "--out", project)
+    assert load_project(tmp_path / "bob.headstudio").document.groom.hair.name == "bob.usda"
+    headstudio("export", project, back)
+    assert read_strands(tmp_path / "back.npy").count == 300
+
+
 def test_hairdressing_by_word_and_by_file(headstudio, tmp_path):
     headstudio("style", *FEW, "--out", "plain.npy")
     headstudio("style", *FEW, "--operation", "tie back", "--out", "tied.npy")

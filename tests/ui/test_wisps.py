@@ -6,10 +6,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from imgui_bundle import imgui
+from scipy.spatial import cKDTree
 
 from headstudio.app.application import EDITORS
 from headstudio.head.scalp_settings import GrayImage
-from headstudio.io.hair import read_strands
+from headstudio.io.hair import read_strands, write_strands
 from headstudio.params import assign
 from headstudio.scene.styles import PARTS, load_style
 from headstudio.wisp.maps import length_map
@@ -399,6 +400,49 @@ def test_lengths_of_loose_hair_are_painted_too(driver):
     assert driver.studio.document.scalp.painted_lengths is not None
     assert entries(driver) == 1
     driver.click("Tools/Shake")
+
+
+def test_strands_of_another_program_are_looked_at_and_put_on_the_head(wisps, tmp_path):
+    files, studio = wisps.app.actions.hair_files, wisps.studio
+    styled, before = studio.stage.strands, entries(wisps)
+    path = tmp_path / "bob.usda"
+    # In centimetres, z up: the axes of another program.
+    turned = 100 * styled.points @ np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]], dtype=np.float32)
+    write_strands(dataclasses.replace(styled, points=turned), path)
+    files.look_into(path)
+    wisps.until(lambda: wisps.shown("Import strands/Import"))
+    wisps.frames(3)
+    assert studio.document.groom.hair is None, "nothing happens before the answer"
+    wisps.click("Import strands/Cancel")
+    assert not wisps.app.dialogs.asking
+    files.look_into(path)
+    wisps.until(lambda: wisps.shown("Import strands/Import"))
+    wisps.frames(3)
+    wisps.click("Import strands/Out of the head")
+    wisps.click("Import strands/Import")
+    wisps.built()
+    groom = studio.document.groom
+    assert (groom.hair.name, groom.reroot, groom.lift) == ("bob.usda", True, False)
+    assert entries(wisps) == before + 1
+    shown = studio.stage.strands
+    assert shown.count == styled.count
+    # In another order, but in the same places.
+    assert np.median(cKDTree(styled.points).query(shown.points)[0]) < 0.005
+    wisps.click("Imported hair/Style hair instead")
+    wisps.built()
+    assert studio.document.groom.hair is None
+    studio.undo()
+    assert studio.document.groom == groom
+    studio.undo()
+    assert studio.document.groom.hair is None
+
+
+def test_a_file_without_strands_is_refused_in_a_line(wisps, tmp_path):
+    (tmp_path / "torn.hair").write_bytes(b"HAIR")
+    wisps.app.actions.take_dropped([tmp_path / "torn.hair"])
+    wisps.until(lambda: not wisps.app.dialogs.asking)
+    assert wisps.studio.messages.log[-1].kind == "error"
+    assert "torn.hair" in wisps.messages()[-1]
 
 
 def test_hair_goes_out_to_a_file_and_a_strand_of_it_comes_in_as_the_prototype(wisps, tmp_path):

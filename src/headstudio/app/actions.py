@@ -10,6 +10,7 @@ from imgui_bundle import imgui
 from PIL import Image
 
 from ..io.film import FILM_SUFFIXES
+from ..io.hair import READABLE
 from ..scene.project import SUFFIX
 from ..scene.recent import recent_projects
 from .commands import Command
@@ -73,14 +74,16 @@ class Actions:
         self._app.dialogs.ask_file(wish, lambda path: self._studio.set("head.source", str(path), "Head"))
 
     def take_dropped(self, paths: list[Path]) -> None:
-        """Open what was dropped on the window: a project, or a mesh as the head."""
+        """Open what was dropped on the window: a project, a mesh as the head, or strands for it."""
         path = paths[0]
         if path.suffix == SUFFIX:
             self._unless_unsaved(lambda: self._studio.open(path))
         elif path.suffix.lower() in HEAD_ENDINGS:
             self._studio.set("head.source", str(path), "Head")
+        elif path.suffix.lower() in READABLE:
+            self.hair_files.look_into(path)
         else:
-            self._studio.messages.say(f"{path.name} is neither a project nor a head", "warning")
+            self._studio.messages.say(f"{path.name} is neither a project nor a head nor hair", "warning")
 
     def recent_menu(self) -> None:
         """The projects opened last, as a menu inside the menu."""

@@ -6,6 +6,7 @@ import shutil
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Protocol
 
 from imgui_bundle import imgui, portable_file_dialogs
 
@@ -26,6 +27,13 @@ MOUSE = (
 )
 
 
+class Question(Protocol):
+    """Something that the user is asked in a window over the others."""
+
+    def draw(self, ui: Ui) -> bool:
+        """Draw it; True once it is answered."""
+
+
 class Dialogs:
     """At most one question at a time; the answer goes to the function that came with it."""
 
@@ -34,7 +42,7 @@ class Dialogs:
         self._pending: portable_file_dialogs.open_file | portable_file_dialogs.save_file | None = None
         self._browser: FileBrowser | None = None
         self._then: Callable[[Path], object] = lambda path: None
-        self._unsaved: _Unsaved | None = None
+        self._question: Question | None = None
         self._keys_open = False
         self._folder = Path.cwd()
 
@@ -52,7 +60,11 @@ class Dialogs:
 
     def ask_unsaved(self, name: str, save: Callable[[Callable[[], None]], None], go_on: Callable[[], None]) -> None:
         """Ask what to do with unsaved work before ``go_on``; ``save`` gets what to do after saving."""
-        self._unsaved = _Unsaved(name, save, go_on)
+        self._question = _Unsaved(name, save, go_on)
+
+    def ask(self, question: Question) -> None:
+        """Ask something else."""
+        self._question = question
 
     def show_keys(self) -> None:
         """Open the page of keys and mouse."""
@@ -61,13 +73,15 @@ class Dialogs:
     @property
     def asking(self) -> bool:
         """Whether a question stands open, so that keys are not for the scene."""
-        return any((self._browser, self._unsaved, self._keys_open, self._pending))
+        return any((self._browser, self._question, self._keys_open, self._pending))
 
     def draw(self, ui: Ui, commands: Iterable[Command]) -> None:
         """Draw the open question, if there is one, and pass its answer on."""
         self._draw_file(ui)
-        if self._unsaved is not None and self._unsaved.draw(ui):
-            self._unsaved = None
+        question = self._question
+        # The answer may be another question.
+        if question is not None and question.draw(ui) and self._question is question:
+            self._question = None
         if self._keys_open:
             self._draw_keys(ui, commands)
 

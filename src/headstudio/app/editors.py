@@ -123,6 +123,7 @@ WISPS = Editor(
         Panel("Styling", "styling", in_steps=True),
         Panel("Colour of hair", "colour", in_steps=True),
         Panel("Facial hair", "beard", in_steps=True),
+        Panel("Imported hair", "groom", in_steps=True),
         Panel("Head", "head", opened=False),
         Panel("Look", "look", opened=False, elsewhere=ELSEWHERE),
         Panel("Camera", "camera", opened=False),

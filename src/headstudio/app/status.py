@@ -16,6 +16,8 @@ NOTES = {
     "hair": "Growing the hair",
     "surroundings": "Measuring the space around the head",
     "hairdo": "Styling the hair",
+    "placement": "Placing the strands on the head",
+    "groom": "Laying the strands on the head",
     "wisps": "Spreading the wisps",
     "flow": "Letting the hair flow",
     "strands": "Growing the strands",
@@ -75,5 +77,8 @@ def _what_there_is(studio: Studio) -> str:
         return f"{animation.head.name}     {hair.count:,} particles     {len(hair.links):,} links"
     if animation.hairdo is None:
         return animation.head.name
+    groom = studio.grown.document.groom.hair
+    if groom is not None:
+        return f"{animation.head.name}     {groom.strands.count:,} strands of {groom.name}"
     wisps, strands = len(animation.hairdo.outlines.roots), studio.grown.document.wisp.strands
     return f"{animation.head.name}     {strands:,} strands in {wisps:,} wisps"

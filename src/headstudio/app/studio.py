@@ -19,6 +19,7 @@ from ..scene.drafts import drafted, next_to_build, same_hair
 from ..scene.project import ProjectError
 from ..scene.simulation import Simulation
 from ..scene.stage import Stage
+from ..wisp.adopt import AdoptError
 from ..wisp.selection import StylingError
 from .brush import Brush
 from .builds import Builds
@@ -30,7 +31,17 @@ from .styling_items import Chosen
 from .work import Work
 
 # What the program foresaw and says in its own words; anything else is named with its type.
-FORESEEN = (HeadError, ParameterError, StylingError, ProjectError, RenderError, FilmError, HairFileError, OSError)
+FORESEEN = (
+    HeadError,
+    ParameterError,
+    StylingError,
+    ProjectError,
+    AdoptError,
+    RenderError,
+    FilmError,
+    HairFileError,
+    OSError,
+)
 
 SETTLE = 1.0  # seconds until furrows that were built in a hurry are built again
 

@@ -5,20 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from ..io.hair import read_strands, write_strands
 from ..scene.builder import Builder
 from ..scene.document import Document
-from ..wisp.adopt import adopt, place_on_head
-from ..wisp.strands import Strands
+from ..scene.project import SUFFIX, save_project
+from ..wisp.adopt import place_on_head
+from ..wisp.groom import Groom, describe, lay_on_head
 from .reporting import say, warn, working
-
-_CLEARANCE = 0.0005  # of strands from the skin [m]
 
 
 def import_hair(path: Path, document: Document, points_per_strand: int | None, out: Path | None) -> None:
-    """Print what the file holds and how it was taken; write the hair on the document's head to ``out`` if that is given.
+    """Print what the file holds and how it was taken; write the hair on the document's head to ``out`` if that is given: as
+    hair, or as a project with this hair.
 
     Raises HairFileError, AdoptError, HeadError, OSError.
     """
@@ -27,33 +25,19 @@ def import_hair(path: Path, document: Document, points_per_strand: int | None, o
     for line in describe(strands):
         say(line)
     builder = Builder()
+    document = replace(document, groom=replace(document.groom, hair=Groom(path.name, strands)))
     with working("placing it on the head"):
-        head, scalp = builder.head(document.head), builder.scalp(document)
-        placement = place_on_head(strands, head, scalp)
-        adopted = adopt(strands, placement, head)
-        points = adopted.points.copy()
-        builder.surroundings(document).keep_outside(points, _CLEARANCE)
+        head = builder.head(document.head)
+        placement = place_on_head(strands, head, builder.scalp(document))
+        lying, lifted = lay_on_head(strands, placement, head, builder.surroundings(document), document.groom)
     say(placement.note)
     if placement.reversed:
         say("the strands began at their tips and were turned around")
-    lifted = int(np.count_nonzero(np.any(points != adopted.points, axis=1)))
-    say(f"{lifted:,} of {len(adopted.points):,} points were lifted out of the head")
+    say(f"{lifted:,} of {len(lying.points):,} points were lifted out of the head")
     if out is not None:
         with working(f"writing {out.name}"):
-            write_strands(replace(adopted, points=points), out)
+            if out.suffix == SUFFIX:
+                save_project(replace(document, look=replace(document.look, hair_as="strands")), out)
+            else:
+                write_strands(lying, out)
         say(str(out))
-
-
-def describe(strands: Strands) -> list[str]:
-    """Strands in lines of text, in the unit of their file."""
-    counts = strands.counts
-    fewest, most = int(counts.min()), int(counts.max())
-    low, high, lengths = strands.points.min(axis=0), strands.points.max(axis=0), strands.lengths
-    known = [name for name, values in (("thickness", strands.radius), ("colour", strands.colour)) if values is not None]
-    return [
-        f"strands: {strands.count:,}",
-        f"points: {len(strands.points):,}, {fewest if fewest == most else f'{fewest} to {most}'} a strand",
-        "bounds: " + ", ".join(f"{axis} {a:.4g} to {b:.4g}" for axis, a, b in zip("xyz", low, high)),
-        f"lengths: {lengths.min():.4g} to {lengths.max():.4g}, median {np.median(lengths):.4g}",
-        f"besides points: {' and '.join(known) or 'nothing'}",
-    ]

@@ -138,7 +138,7 @@ def needs(document: Document) -> tuple[Any, ...]:
     look = document.look
     hair: tuple[Any, ...] = ()
     if look.hair_as == "strands":
-        hair = (document.wisp, document.beard, document.colour, document.styling, look.strands_shown)
+        hair = (document.wisp, document.groom, document.beard, document.colour, document.styling, look.strands_shown)
     elif look.hair_as == "particles":
         hair = (document.hair,)
     skin = (replace(document.wrinkle, proposals=()), document.fine) if look.skin_as == "living" else ()

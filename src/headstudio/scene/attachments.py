@@ -21,7 +21,9 @@ from ..head.scalp_settings import GrayImage
 from ..params import ParameterError
 from ..wisp import styling_codec
 from ..wisp.curves import checked_curve
+from ..wisp.groom import Groom
 from ..wisp.settings import CurvePoints, Path3D
+from ..wisp.strands import Strands
 from ..wrinkle.face_settings import SLIDERS
 from ..wrinkle.fine_settings import DirectionVector
 from ..wrinkle.furrow import decode_furrows, encode_furrows
@@ -153,6 +155,41 @@ def decode_vectors(content: bytes) -> tuple[DirectionVector, ...]:
     return tuple(DirectionVector(int(field), *numbers) for field, *numbers in rows)
 
 
+# Columns of a table of points: the place, half the thickness, the colour.
+_TABLES = {3: (False, False), 4: (True, False), 6: (False, True), 7: (True, True)}
+
+
+def encode_groom(groom: Groom) -> bytes:
+    """Strands as arrays in numpy's format, one after the other: the name of their file in UTF-8, how many points each
+    strand has, and a table of points, float32: x, y, z, half the thickness if known, linear red, green and blue if known.
+    """
+    strands, file = groom.strands, io.BytesIO()
+    columns = [strands.points]
+    columns += [] if strands.radius is None else [strands.radius[:, None]]
+    columns += [] if strands.colour is None else [strands.colour]
+    for array in (np.frombuffer(groom.name.encode(), np.uint8), strands.counts, np.hstack(columns)):
+        np.save(file, array, allow_pickle=False)
+    return file.getvalue()
+
+
+def decode_groom(content: bytes) -> Groom:
+    """Strands of another program. Raises ValueError."""
+    file = io.BytesIO(content)
+    try:
+        name, counts, table = (np.load(file, allow_pickle=False) for _ in range(3))
+        text = name.astype(np.uint8).tobytes().decode()
+        has_radius, has_colour = _TABLES[table.shape[1]]
+    except (EOFError, IndexError, KeyError, OSError, TypeError, ValueError):
+        raise ValueError("holds no strands") from None
+    whole = counts.ndim == 1 and len(counts) > 0 and counts.dtype.kind in "iu" and counts.min() >= 2
+    if not whole or table.dtype != np.float32 or counts.sum() != len(table) or not np.isfinite(table).all():
+        raise ValueError("is damaged: its points are not those of its strands")
+    radius = table[:, 3].copy() if has_radius else None
+    colour = table[:, -3:].copy() if has_colour else None
+    first = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
+    return Groom(text, Strands(table[:, :3], first, radius, colour))
+
+
 def _styling(field: str, kinds: styling_codec.Kinds) -> Attachment:
     return Attachment(
         f"styling.{field}",
@@ -178,6 +215,7 @@ ATTACHMENTS = (
     Attachment("face.performance", "face/performance.json", encode_performance, decode_performance),
     Attachment("fine.vectors", "fine/directions.json", encode_vectors, decode_vectors),
     Attachment("fine.painted_strength", "fine/strength.png", encode_gray, decode_gray),
+    Attachment("groom.hair", "groom/strands.npy", encode_groom, decode_groom),
     _styling("strokes", styling_codec.STROKES),
     _styling("operations", styling_codec.OPERATIONS),
     _styling("cuts", styling_codec.CUTS),

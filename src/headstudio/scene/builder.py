@@ -17,9 +17,12 @@ from ..head.scalp_settings import ScalpSettings
 from ..lcp.body import Body
 from ..lcp.grow import grow_hair
 from ..lcp.model import HairModel
+from ..wisp.adopt import place_on_head
 from ..wisp.facial_hair import FacialPatch, facial_patches
+from ..wisp.groom import groomed_hairdo, lay_on_head, mixed
 from ..wisp.hairdo import Hairdo, Stylist
 from ..wisp.joining import join_strands
+from ..wisp.strands import Strands
 from ..wisp.surroundings import Surroundings
 from ..wrinkle.face import Face
 from ..wrinkle.face_creases import face_bed, face_creases
@@ -84,14 +87,17 @@ class Builder:
         return self._part("surroundings", head, lambda: Surroundings.around(head))
 
     def hairdo(self, document: Document, strands: int | None = None) -> Hairdo:
-        """The hairstyle of ``document``, made on demand; its strands are those of head and face. ``strands``: only the first
-        so many of the head's, and as large a part of the face's.
+        """The hair of ``document``, made on demand: what was imported, or else the hairstyle; its strands are those of head
+        and face. ``strands``: only the first so many of the head's, and as large a part of the face's.
 
-        Raises HeadError, and ParameterError for curves that cannot be used.
+        Raises HeadError, ParameterError for curves that cannot be used, AdoptError for hair that fits no head.
         """
         scalp, surroundings = self.scalp(document), self.surroundings(document)
         wanted = (scalp, surroundings, document.wisp, document.colour, document.styling, strands)
-        hairdo = self._part("hairdo", wanted, lambda: self._stylist("head").style(*wanted, announce=self._announce))
+        if document.groom.hair is not None:
+            hairdo = self._groomed(document, document.groom.hair.strands, strands)
+        else:
+            hairdo = self._part("hairdo", wanted, lambda: self._stylist("head").style(*wanted, announce=self._announce))
         faces = [
             self._facial_hair(document, patch, hairdo.strands.stands_for) for patch in facial_patches(document.beard)
         ]
@@ -101,6 +107,20 @@ class Builder:
             "joined hair", (hairdo, *faces), lambda: join_strands([h.strands for h in (hairdo, *faces)])
         )
         return replace(hairdo, strands=joined)
+
+    def _groomed(self, document: Document, file: Strands, strands: int | None) -> Hairdo:
+        """Hair of another program, on the head of ``document``."""
+        head, scalp, surroundings = self.head(document.head), self.scalp(document), self.surroundings(document)
+        groom = document.groom
+        placement = self._part("placement", (head, scalp, groom.hair), lambda: place_on_head(file, head, scalp))
+        lying = self._part(
+            "groom",
+            (placement, surroundings, groom),
+            lambda: mixed(lay_on_head(file, placement, head, surroundings, groom)[0]),
+        )
+        count = lying.count if strands is None else strands
+        wanted = (lying, count, surroundings, document.wisp, document.colour, document.styling)
+        return self._part("hairdo", wanted, lambda: groomed_hairdo(*wanted))
 
     def _stylist(self, region: str) -> Stylist:
         return self._stylists.setdefault(region, Stylist())

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 from ..head.scalp_settings import ScalpSettings
 from ..lcp.settings import DynamicsSettings, HairSettings, WindSettings
+from ..wisp.groom import GroomSettings
 from ..wisp.settings import FacialHairSettings, HairColourSettings, WispSettings
 from ..wisp.styling_settings import StylingSettings
 from ..wrinkle.face_settings import FaceSettings
@@ -29,6 +30,7 @@ class Document:
     wind: WindSettings = field(default_factory=WindSettings)
     wisp: WispSettings = field(default_factory=WispSettings)
     styling: StylingSettings = field(default_factory=StylingSettings)
+    groom: GroomSettings = field(default_factory=GroomSettings)
     beard: FacialHairSettings = field(default_factory=FacialHairSettings)
     colour: HairColourSettings = field(default_factory=HairColourSettings)
     face: FaceSettings = field(default_factory=FaceSettings)

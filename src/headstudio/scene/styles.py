@@ -35,8 +35,9 @@ class Style:
     hair: Document
 
     def on(self, document: Document) -> Document:
-        """``document`` with this hair in the place of its own."""
-        return dataclasses.replace(document, **{part: getattr(self.hair, part) for part in PARTS})
+        """``document`` with this hair in the place of its own, styled or imported."""
+        parts = {part: getattr(self.hair, part) for part in PARTS}
+        return dataclasses.replace(document, groom=self.hair.groom, **parts)
 
 
 def style_names() -> tuple[str, ...]:

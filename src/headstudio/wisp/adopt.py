@@ -63,8 +63,8 @@ def place_on_head(strands: Strands, head: Head, scalp: Scalp) -> Placement:
     return best
 
 
-def adopt(strands: Strands, placement: Placement, head: Head) -> Strands:
-    """The strands in the head frame [m], root first, each moved so that its root lies on the skin.
+def adopt(strands: Strands, placement: Placement, head: Head, *, reroot: bool = True) -> Strands:
+    """The strands in the head frame [m], root first, each moved so that its root lies on the skin if ``reroot`` says so.
 
     The move fades along the strand: the root is brought home, the tip stays where it was.
     """
@@ -73,14 +73,19 @@ def adopt(strands: Strands, placement: Placement, head: Head) -> Strands:
     if placement.reversed:
         strands = _reversed(strands)
         points = points[_reversal(strands)]
-    first = strands.first[:-1]
+    radius = None if strands.radius is None else strands.radius * np.float32(scale)
+    strands = replace(strands, points=points.astype(np.float32), radius=radius)
+    return _rerooted(strands, head) if reroot else strands
+
+
+def _rerooted(strands: Strands, head: Head) -> Strands:
+    points, first = strands.points.astype(np.float64), strands.first[:-1]
     on_skin, _ = locator(head.skin).nearest(points[first])
     home = on_skin.blend(head.skin.vertices, head.skin.faces) - points[first]
     strand = np.repeat(np.arange(strands.count), strands.counts)
     along = (np.arange(len(points)) - first[strand]) / (strands.counts - 1)[strand]
     moved = points + (1.0 - along)[:, None] * home[strand]
-    radius = None if strands.radius is None else strands.radius * np.float32(scale)
-    return replace(strands, points=moved.astype(np.float32), radius=radius)
+    return replace(strands, points=moved.astype(np.float32))
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,21 +18,17 @@ def join_strands(sets: Sequence[Strands]) -> Strands:
     if len(sets) == 1:
         return sets[0]
     turn = np.concatenate([(np.arange(part.count) + 0.5) / max(part.count, 1) for part in sets])
-    order = np.argsort(turn, kind="stable")
-    counts = np.concatenate([part.counts for part in sets])
-    first = np.concatenate([[0], np.cumsum(counts[order])])
-    begin = np.concatenate([[0], np.cumsum(counts)])[order]
-    points = np.repeat(begin - first[:-1], counts[order]) + np.arange(first[-1])
     wisps, offset = [], 0
     for part in sets:
         assert part.wisp is not None
         wisps.append(part.wisp + np.int32(offset))
         offset += int(part.wisp.max(initial=-1)) + 1
-    return Strands(
-        np.concatenate([part.points for part in sets])[points],
-        first,
-        np.concatenate([part.radius for part in sets])[points],
-        np.concatenate([part.colour for part in sets])[points],
-        np.concatenate(wisps)[order],
+    joined = Strands(
+        np.concatenate([part.points for part in sets]),
+        np.concatenate([[0], np.cumsum(np.concatenate([part.counts for part in sets]))]),
+        np.concatenate([part.radius for part in sets]),
+        np.concatenate([part.colour for part in sets]),
+        np.concatenate(wisps),
         stands_for=sets[0].stands_for,
     )
+    return joined.picked(np.argsort(turn, kind="stable"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +59,20 @@ class Strands:
     def counts(self) -> NDArray[np.int64]:
         """How many points each strand has, (n,)."""
         return np.diff(self.first)
+
+    def picked(self, chosen: NDArray[np.int64]) -> Strands:
+        """The strands ``chosen`` by their numbers, (k,), in that order."""
+        counts = self.counts[chosen]
+        first = np.concatenate([[0], np.cumsum(counts)])
+        index = np.repeat(self.first[chosen] - first[:-1], counts) + np.arange(first[-1])
+        return replace(
+            self,
+            points=self.points[index],
+            first=first,
+            radius=None if self.radius is None else self.radius[index],
+            colour=None if self.colour is None else self.colour[index],
+            wisp=None if self.wisp is None else self.wisp[chosen],
+        )
 
     @property
     def lengths(self) -> NDArray[np.float64]:

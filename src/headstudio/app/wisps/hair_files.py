@@ -1,4 +1,4 @@
-"""Hair out to the files of other programs, and a prototype strand in from them."""
+"""Hair out to the files of other programs, and strands and prototypes in from them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from pathlib import Path
 
 from ...io.hair import READABLE, WRITABLE, read_strands, write_strands
 from ...scene.builder import Builder
+from ...wisp.groom import GroomSettings
 from ...wisp.sample_strand import sample_strand
 from ..commands import Command
 from ..dialogs import Dialogs
 from ..file_browser import FileWish
 from ..studio import Studio
+from .import_strands import ImportStrands
 
 
 class HairFiles:
@@ -24,9 +26,31 @@ class HairFiles:
     def commands(self) -> list[Command]:
         """For the menu of files."""
         return [
+            Command("File", "Import strands...", self.import_strands, enabled=lambda: self._studio.grown is not None),
             Command("File", "Import a prototype strand...", self.import_prototype),
             Command("File", "Export hair...", self.export_hair, enabled=self._has_strands),
         ]
+
+    def import_strands(self) -> None:
+        """Ask for a hair file, show what is in it, and put its strands on the head as one change."""
+        self._dialogs.ask_file(FileWish("Import strands", READABLE), self.look_into)
+
+    def look_into(self, path: Path) -> None:
+        """Show what is in a hair file and ask how its strands are to lie; what is wrong with it becomes a message."""
+        grown = self._studio.grown
+        if grown is None:
+            return
+        animation = grown.animation
+        self._dialogs.ask(ImportStrands(path, animation.head, animation.scalp, self._take_strands, self._refuse))
+
+    def _take_strands(self, groom: GroomSettings) -> None:
+        document = self._studio.document
+        shown = replace(document.look, hair_as="strands")
+        self._studio.work.change(replace(document, groom=groom, look=shown), "Import strands")
+
+    def _refuse(self, error: BaseException) -> None:
+        with self._studio.reporting():
+            raise error
 
     def import_prototype(self) -> None:
         """Ask for a hair file and make one of its strands the prototype, as one change."""

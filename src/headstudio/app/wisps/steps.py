@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from imgui_bundle import imgui
 
 from ..parameter_rows import ParameterRows
 from ..tools.tool import Tool
@@ -88,11 +91,32 @@ class WispSteps:
         )
 
     def draw(self, ui: Ui) -> None:
-        """All sections, each below a heading that folds it."""
+        """All sections, each below a heading that folds it; imported hair above them, while it takes their place."""
+        if self.rows.studio.document.groom.hair is not None:
+            with ui.section("Imported hair") as shown:
+                if shown:
+                    self._draw_groom(ui)
         for title, opened, draw in self._sections:
             with ui.section(title, opened=opened) as shown:
                 if shown:
                     draw(ui)
+
+    def _draw_groom(self, ui: Ui) -> None:
+        document = self.rows.studio.document
+        hair = document.groom.hair
+        if hair is None:
+            return
+        imgui.push_text_wrap_pos(0)
+        ui.muted(f"{hair.strands.count:,} strands of {hair.name}")
+        imgui.pop_text_wrap_pos()
+        self.rows.rows(ui, "groom", ("reroot", "lift"))
+        if hair.strands.radius is None:
+            self.rows.rows(ui, "wisp", ("shaft_root", "shaft_tip"))
+        self.rows.row(ui, "look.strands_shown")
+        if ui.button(
+            "Style hair instead", "Take the imported strands away, and show the hairstyle of the steps below."
+        ):
+            self.rows.change(replace(document, groom=replace(document.groom, hair=None)), "Style hair instead")
 
     def _draw_global(self, ui: Ui) -> None:
         self.rows.rows(ui, "wisp", _GLOBAL)
