@@ -47,7 +47,7 @@ class Body:
         hidden_skin, hidden_parts = hidden_of_head(context, head)
         corners = np.concatenate([skin.vertices, skin.vertex_normals, head.head_weight[:, None]], axis=1)
         vertices = context.buffer(floats_of(corners))
-        painted = paint(head)
+        painted = np.column_stack([hidden_skin, paint(head)])
         surface = Surface(
             neighbours_together(skin.faces, skin.vertices), skin.vertices, skin.vertex_normals, painted[:, :2]
         )
@@ -58,7 +58,7 @@ class Body:
             programs.skin,
             [
                 (vertices, "3f 3f 1f", "position", "normal", "head_weight"),
-                (context.buffer(bytes_of(np.column_stack([hidden_skin, painted]))), "4f1", "paint"),
+                (context.buffer(bytes_of(painted)), "4f1", "paint"),
                 (self._cover, "1f1", "cover"),
             ],
             self._faces.buffer,
@@ -86,9 +86,11 @@ class Body:
         self._level = self._faces.level_for(view, shift, height)
         self._parts.look_from(view, shift, height)
 
-    def draw_depth(self) -> None:
-        """The body into the shadow map."""
+    def draw_depth(self, light: View) -> None:
+        """The body into the shadow map of ``light``."""
+        self._cull(light)
         self._shadow.render()
+        self._context.disable(moderngl.CULL_FACE)
 
     def surface_targets(self, targets: PictureTargets) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
         """Where ``draw_surface`` draws, and what of it is to be cleared before."""
@@ -97,11 +99,14 @@ class Body:
     def draw_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
         """What the skin is like, into the framebuffer in use; texture 2 is the strands."""
         set_uniforms(self._programs.skin, strands=2)
-        # Half of the triangles face away, and their inside is only seen through an opening.
-        if not self._openings.shown_to(view.eye):
-            self._context.enable(moderngl.CULL_FACE)
+        self._cull(view)
         self._faces.render(self._skin, self._level)
         self._context.disable(moderngl.CULL_FACE)
+
+    def _cull(self, view: View) -> None:
+        """Half of the triangles face away, and their inside is only seen through an opening."""
+        if not self._openings.shown_to(view.eye):
+            self._context.enable(moderngl.CULL_FACE)
 
     def light_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
         """The light that the skin sends to the eye, wherever the depth of the framebuffer in use shows that it is.

@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 from ..head.mesh import Floats, Ints, TriangleMesh
 
 # Clusters are at least and at most so many pixels wide.
-_LEAST, _MOST = 1.3, 5.0
+_LEAST, _MOST = 1.3, 7.0
 # Between clusters a triangle may leave the surface by this part of a pixel,
 _ASTRAY = 0.25
 # what is painted may change by this much,
@@ -35,7 +35,7 @@ _CELL_BITS = 16
 # Cells along an edge of the Z-curve, as a power of two.
 _Z_BITS = 10
 # What would be smaller than this [m] is left out of a body that casts shadows.
-_SHADOW_PIXEL = 0.003
+_SHADOW_PIXEL = 0.004
 
 
 @dataclass(frozen=True, eq=False)

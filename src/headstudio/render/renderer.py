@@ -110,7 +110,7 @@ class Renderer:
             self._limb.look_from(view, np.zeros(3), targets.scene.height)
             self._scene_block.write(scene_block(view, light, HeadFrame(), look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
-            self._cast_shadows(self._limb, None, look, maps)
+            self._cast_shadows(self._limb, None, light, look, maps)
             maps.light.clear(1.0, 1.0, 1.0, 1.0)
             maps.depth.use(0)
             maps.map.use(1)
@@ -176,7 +176,7 @@ class Renderer:
             self._scene_block.write(scene_block(view, light, stage.frame, look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
         with timer.stage("shadow"):
-            self._cast_shadows(body if look.show_head else None, worn, look, maps)
+            self._cast_shadows(body if look.show_head else None, worn, light, look, maps)
         with timer.stage("light"):
             self._shed_light(hair, light, look, maps)
             if strands is not None:
@@ -242,12 +242,12 @@ class Renderer:
         return light_view(look, centre, np.ceil(radius / 0.02) * 0.02)
 
     def _cast_shadows(
-        self, body: Body | SkinBody | None, worn: Adornments | None, look: Look, maps: LightTargets
+        self, body: Body | SkinBody | None, worn: Adornments | None, light: View, look: Look, maps: LightTargets
     ) -> None:
         with self.context.scope(maps.shadow, moderngl.DEPTH_TEST):
             maps.shadow.clear(depth=1.0)
             if body is not None and look.shadows:
-                body.draw_depth()
+                body.draw_depth(light)
             if worn is not None and look.shadows:
                 worn.draw_depth()
 

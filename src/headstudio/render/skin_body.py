@@ -122,9 +122,11 @@ class SkinBody:
         """Be as detailed as the next picture needs, ``height`` pixels high, of the body moved by ``shift`` [m], (3,)."""
         self._level = self._faces.level_for(view, shift, height)
 
-    def draw_depth(self) -> None:
-        """The body into the shadow map."""
+    def draw_depth(self, light: View) -> None:
+        """The body into the shadow map of ``light``."""
+        self._cull(light)
         self._shadow.render()
+        self.context.disable(moderngl.CULL_FACE)
 
     def surface_targets(self, targets: PictureTargets) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
         """Where ``draw_surface`` draws, and what of it is to be cleared before."""
@@ -133,9 +135,7 @@ class SkinBody:
     def draw_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
         """What the skin is like, into the framebuffer in use; texture 2 is the strands."""
         set_uniforms(self.programs.surface, strands=2, creases=skin.creases)
-        # Half of the triangles face away, and their inside is only seen through an opening.
-        if not self._openings.shown_to(view.eye):
-            self.context.enable(moderngl.CULL_FACE)
+        self._cull(view)
         target = targets.skin.surface
         width, height = target.size
         border = round(look.split * width)
@@ -147,6 +147,11 @@ class SkinBody:
             self._draw_pose(self._smooth or self._posed, fine=False)
         target.scissor = (0, 0, width, height)
         self.context.disable(moderngl.CULL_FACE)
+
+    def _cull(self, view: View) -> None:
+        """Half of the triangles face away, and their inside is only seen through an opening."""
+        if not self._openings.shown_to(view.eye):
+            self.context.enable(moderngl.CULL_FACE)
 
     def light_surface(self, view: View, look: Look, skin: SkinSettings, targets: PictureTargets) -> None:
         """The light that the skin sends to the eye, wherever the depth of the framebuffer in use shows that it is.

@@ -103,7 +103,7 @@ def shape_of(surface: SkinSurface, head: HeadShape) -> SkinShape:
     painted = surface.spread(head.painted)
     faces = neighbours_together(surface.faces, surface.rest)
     return SkinShape(
-        surface=Surface(faces, surface.rest, unit(surface.spread(head.normals)), painted[:, 1:3]),
+        surface=Surface(faces, surface.rest, unit(surface.spread(head.normals)), painted),
         shadow_faces=head.shadow_faces,
         uv=surface.uv,
         mapped=surface.spread(head.mapped),
@@ -129,7 +129,7 @@ def limb_shape_of(skin: LimbSkin, hidden: Floats) -> SkinShape:
             neighbours_together(skin.opened.faces, skin.opened.vertices),
             skin.opened.vertices,
             limb.vertex_normals[source],
-            np.zeros((len(source), 0)),
+            painted[source],
         ),
         shadow_faces=casting_shadows(skin.opened),
         uv=skin.uv,
