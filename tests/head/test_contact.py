@@ -49,7 +49,7 @@ def test_both_sides_are_told_apart(ball):
 
 
 def test_what_got_in_deep_still_finds_its_way_out(ball):
-    points, out = around_the_ball((-1.5 * VOXEL, -VOXEL))
+    points, out = around_the_ball((-0.025, -0.01))
     distance, normals = ball.at(points)
     assert np.all(distance < 0)
     assert np.einsum("ij,ij->i", normals, out).min() > 0.9
@@ -81,9 +81,9 @@ def slab(height):
 
 
 def test_a_flat_wall_is_exact():
-    field = ContactField.around(slab(0.2), 0.02)
+    field = ContactField.around(slab(0.2), 0.01)
     x, z = np.random.default_rng(1).uniform(-0.12, 0.12, (2, 500))
-    points = np.column_stack([x, np.linspace(0.07, 0.13, 500), z])
+    points = np.column_stack([x, np.linspace(0.075, 0.125, 500), z])
     distance, normals = field.at(points)
     np.testing.assert_allclose(distance, points[:, 1] - 0.1, atol=1e-9)
     np.testing.assert_allclose(normals, np.tile([0.0, 1.0, 0.0], (500, 1)), atol=1e-9)
@@ -109,7 +109,7 @@ def test_a_surface_hides_nothing_beyond_its_border():
     rim = CENTRE[1] + 0.5 * RADIUS
     cap = mesh_of(trimesh.Trimesh(ball.vertices, ball.faces[ball.triangles_center[:, 1] > rim], process=False))
     turn, down, out = np.random.default_rng(3).random((3, 2000))
-    around = np.sqrt(0.75) * RADIUS + (2.0 * out - 1.0) * VOXEL
+    around = np.sqrt(0.75) * RADIUS + out * VOXEL
     below = (2.0 + 0.4 * down) * VOXEL
     beyond = np.column_stack([around * np.cos(7 * turn), rim - CENTRE[1] - below, around * np.sin(7 * turn)]) + CENTRE
     assert np.all(np.isinf(ContactField.around(cap, VOXEL).at(beyond)[0]))

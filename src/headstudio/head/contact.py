@@ -16,6 +16,8 @@ from .rows import row_dot
 from .sampling import sample_surface
 
 _SAMPLES_PER_VOXEL = 24  # on a plane through it
+# So far from the surface voxels have planes: what a fast step, or how hair was grown, put this deep comes out again [m].
+_BORDER = 0.028
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +27,7 @@ class ContactField:
     origin: corner of the first voxel [m], (3,). voxel: edge of a voxel [m]. plane: index of the plane in every voxel, -1
     where the surface is far away, (nx, ny, nz). points: a point on every plane [m], normals: its unit normal, (p, 3).
 
-    Voxels that hold samples of the surface have their mean plane. Two layers of voxels around those have the plane that
+    Voxels that hold samples of the surface have their mean plane. Those within ``_BORDER`` of them have the plane that
     touches the surface nearest to them: a particle that got below the surface in one step is still brought back. (A plane
     borrowed from the voxel next door would, beyond a ridge, call outside what is inside, and the other way round.)
     """
@@ -40,8 +42,9 @@ class ContactField:
     def around(cls, mesh: TriangleMesh, voxel: float, seed: int = 0) -> ContactField:
         """Sample the surface evenly by area and average positions and normals in each voxel of edge ``voxel`` [m]."""
         positions, normals = sample_surface(mesh, voxel / math.sqrt(_SAMPLES_PER_VOXEL), seed)
-        origin = mesh.bounds[0] - 3.0 * voxel
-        shape = np.ceil((mesh.bounds[1] - origin) / voxel).astype(int) + 3
+        layers = math.ceil(_BORDER / voxel)
+        origin = mesh.bounds[0] - (layers + 1) * voxel
+        shape = np.ceil((mesh.bounds[1] - origin) / voxel).astype(int) + layers + 1
         cell = np.ravel_multi_index(tuple(((positions - origin) / voxel).astype(int).T), tuple(shape))
         occupied, member, count = np.unique(cell, return_inverse=True, return_counts=True)
         mean = np.stack([np.bincount(member, positions[:, k]) for k in range(3)], axis=1) / count[:, None]
@@ -52,7 +55,7 @@ class ContactField:
         plane = np.full(shape, -1, dtype=np.int32)
         plane.flat[occupied[clear]] = np.arange(np.count_nonzero(clear), dtype=np.int32)
         mean, normal = mean[clear], normal[clear] / length[clear, None]
-        nearby = _shell(plane)
+        nearby = _shell(plane, layers)
         centres = origin + (np.stack(np.nonzero(nearby), axis=1) + 0.5) * voxel
         below, facing = _tangent_planes(mesh, centres)
         # Where the surface ends its planes go on for a voxel and no further: beyond its border nothing is below it.
@@ -91,10 +94,10 @@ class ContactField:
         return np.append(row_dot(self.points, self.normals), -np.inf)
 
 
-def _shell(plane: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """Which voxels lie within two layers of those that have a plane and have none themselves."""
+def _shell(plane: NDArray[np.int32], layers: int) -> NDArray[np.bool_]:
+    """Which voxels lie within so many layers of those that have a plane and have none themselves."""
     distance = ndimage.distance_transform_edt(plane < 0)
-    return (distance > 0.0) & (distance <= 2.0)
+    return (distance > 0.0) & (distance <= layers)
 
 
 def _tangent_planes(mesh: TriangleMesh, centres: Floats) -> tuple[Floats, Floats]:

@@ -14,7 +14,7 @@ from ..head.mesh import Floats, TriangleMesh
 from ..head.rows import row_dot
 from .inertia import cross_matrix
 
-_VOXEL = 0.014
+_VOXEL = 0.007
 _SLIDING_DISTANCE = 0.006
 
 

@@ -17,6 +17,7 @@ from .neighbours import find_pairs
 _ROUNDS = 24
 _ROOM = 0.75  # of the mean distance: nearer than this, two particles are in each other's way
 _YIELD = 0.5  # part of the overlap that a round takes away
+_SLACK = 0.001  # deeper in the body than before [m]: what coarse planes may say
 _FARTHEST = 0.25  # of its arc length: how far a particle may be moved, so that hair keeps its course
 
 
@@ -42,7 +43,9 @@ def spread(
         from_root = moved - roots
         reach = np.maximum(row_length(from_root), 1e-12)
         within = roots + np.minimum(1.0, arc_length / reach)[:, None] * from_root
-        positions = np.where((arc_length > 0)[:, None], within, start)
+        # Drawn back along a straight line hair could end up in the body: rather than that it stays where it is.
+        gives_way = (arc_length > 0) & (body.clearance(within) >= np.minimum(clearance, 0.0) - _SLACK)
+        positions = np.where(gives_way[:, None], within, positions)
     return positions
 
 
@@ -61,4 +64,5 @@ def _way_out(positions: Floats, directions: Floats, room: float) -> Floats:
     way = np.empty_like(positions)
     for axis in range(3):
         way[:, axis] = np.bincount(j, push[:, axis], count) - np.bincount(i, push[:, axis], count)
-    return way
+    # Where many are in one place each would be pushed by all of them: it goes no farther than it needs to be beside one.
+    return np.minimum(1.0, room / np.maximum(row_length(way), 1e-12))[:, None] * way
