@@ -46,6 +46,17 @@ def test_fewer_triangles_still_close_and_stay_within_a_part_of_a_pixel(pixel: fl
     assert (0.1 - np.linalg.norm(middles, axis=1)).max() < pixel
 
 
+def test_a_border_keeps_its_course() -> None:
+    """A cut runs through clusters; were its corners among them the border of a bust would have notches."""
+    whole = ball(6)
+    kept = whole.faces[whole.vertices[whole.faces].mean(axis=1) @ [0.3, 1.0, 0.1] > -0.01]
+    cap = TriangleMesh(whole.vertices, kept)
+    faces = coarser(surface_of(cap), 0.004)
+    assert len(faces) < 0.3 * len(kept)
+    before, after = (np.sort(igl.boundary_facets(f)[0], axis=1) for f in (kept, faces))
+    np.testing.assert_array_equal(np.unique(before, axis=0), np.unique(after, axis=0))
+
+
 def test_nothing_is_left_out_where_triangles_are_larger_than_pixels() -> None:
     mesh = ball()
     surface = surface_of(mesh)

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats
+from ..head.rows import row_length
 from ..head.scalp import Scalp
 from .beam import beam_directions
 from .body import Body
@@ -81,6 +82,7 @@ def hang(
 
     arc_length and length: of the point and of the whole hair that it belongs to [m], (n,). A root particle lies below the
     scalp, against its root direction. Every other hair is a cantilever beam, and slides along the body where it meets it.
+    What the body turned it by, its stiffness hands on for a bending length: hair that lands on a shoulder goes on over it.
 
     The paper takes the end point of a beam of length s_i instead. The ends of beams of different lengths do not lie on one
     hair: between them the arc length no longer measures distance, and the links would start out on the wrong foot.
@@ -90,9 +92,12 @@ def hang(
     grown = np.flatnonzero(arc_length >= 0)
     pieces = beam_directions(root_directions[grown], length[grown], bending_length, _BEAM_JOINTS)
     step = length[grown] / _BEAM_JOINTS
-    here = roots[grown]
+    kept = np.exp(-step / bending_length)[:, None]
+    here, turned = roots[grown], np.zeros_like(roots[grown])
     for k in range(_BEAM_JOINTS):
-        along = body.slide(here, pieces[:, k])
+        wanted = pieces[:, k] + kept * turned
+        along = body.slide(here, wanted / np.maximum(row_length(wanted), 1e-9)[:, None])
+        turned = along - pieces[:, k]
         beyond = arc_length[grown] - k * step
         ends = (beyond >= 0) & ((beyond < step) | (k == _BEAM_JOINTS - 1))
         positions[grown[ends]] = here[ends] + beyond[ends, None] * along[ends]

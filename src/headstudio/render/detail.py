@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import igl
 import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components, dijkstra
@@ -70,7 +71,8 @@ def coarser(surface: Surface, pixel: float) -> Ints:
     along = surface.points[end] - surface.points[start]
     length = np.sqrt(np.einsum("ij,ij->i", along, along)) + _SHORT
     size = _sizes(surface, start, end, length, pixel)
-    seeds = _seeds(surface.points, start, end, size)
+    # All of a border stays: an edge of the surface shows every corner that is cut off it.
+    seeds = np.union1d(_seeds(surface.points, start, end, size), igl.boundary_facets(surface.faces)[0])
     # Every vertex goes to the seed that is nearest along edges, as measured in clusters.
     count = len(size)
     steps = sparse.csr_array((2 * length / (size[start] + size[end]), (start, end)), shape=(count, count))
