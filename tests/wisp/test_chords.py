@@ -29,6 +29,18 @@ def strands_over_ears() -> np.ndarray:
     return strands[free]
 
 
+def strands_through_ears() -> np.ndarray:
+    """Strands of two points, one on either side of the left or the right ear, (S, 2, 3)."""
+    head, _, surroundings = body()
+    points, normals = sample_surface(head.skin, 0.003)
+    places = surroundings.proportions.measure(points)
+    at_ear = (np.abs(places[:, 0]) > 1.05) & (np.abs(places[:, 1] + 0.4) < 0.4) & (np.abs(places[:, 2] + 0.2) < 0.3)
+    ways = np.array([0.005, -0.012])[None, :, None]
+    strands = (points[at_ear][:, None] + ways * normals[at_ear][:, None]).astype(np.float32)
+    free = surroundings.distance(strands.reshape(-1, 3)).reshape(-1, 2).min(axis=1) > 0.002
+    return strands[free]
+
+
 def depth_between(strands: np.ndarray) -> float:
     head, _, _ = body()
     parts = np.linspace(0, 1, 9)[:, None, None, None]
@@ -44,6 +56,17 @@ def test_chords_over_an_ear_are_moved_out_of_it():
     moved = keep_chords_outside(surroundings, strands.copy(), MARGIN)
     assert depth_between(moved) < 0.001
     assert surroundings.distance(moved.reshape(-1, 3)).min() > 0.9 * MARGIN
+
+
+def test_what_goes_through_an_ear_is_taken_around_it():
+    _, _, surroundings = body()
+    strands = strands_through_ears()
+    assert len(strands) > 20
+    moved = keep_chords_outside(surroundings, strands.copy(), MARGIN)
+    before, after = (np.array([depth_between(strand[None]) for strand in each]) for each in (strands, moved))
+    assert np.median(before) > 0.001
+    assert np.mean(after < 0.001) > 0.9
+    assert np.linalg.norm(moved - strands, axis=2).max() < 0.03
 
 
 def test_strands_away_from_all_that_is_thin_stay_where_they_are():

@@ -1,11 +1,15 @@
+import dataclasses
+
 import numpy as np
 import pytest
 
 from headstudio.head.depth import SkinDepth
 from headstudio.head.frame import HeadFrame
 from headstudio.head.locate import locator
+from headstudio.head.mesh import TriangleMesh
 from headstudio.head.sampling import sample_surface
 from headstudio.wisp.proportions import Proportions
+from headstudio.wisp.surroundings import Surroundings
 
 from .dressed import body
 
@@ -74,3 +78,22 @@ def test_places_mean_the_same_on_every_head():
     assert proportions.measure(marks.occiput)[2] == pytest.approx(-1.0)
     places = np.random.default_rng(0).normal(size=(20, 3))
     assert proportions.measure(proportions.place(places)) == pytest.approx(places)
+
+
+def test_a_hole_in_the_face_gets_a_lid_and_changes_nothing_below_it():
+    """A socket without an eye, and a mouth: a wall from there to the floor would come out under the jaw."""
+    head, _, surroundings = body()
+    skin, marks = head.skin, head.landmarks
+    holes = [marks.left_eye, marks.right_eye]
+    middles = skin.vertices[skin.faces].mean(axis=1)
+    gone = np.min([np.linalg.norm(middles - hole, axis=1) for hole in holes], axis=0) < 0.016
+    assert gone.any()
+    open_head = dataclasses.replace(head, skin=TriangleMesh(skin.vertices, skin.faces[~gone]))
+    opened = Surroundings.around(open_head)
+    nodes = surroundings.skin_grid.nodes
+    below = (nodes[:, 1] < marks.left_eye[1] - 0.05) & (nodes[:, 1] > skin.bounds[0, 1])
+    now, before = opened.distance(nodes[below]), surroundings.distance(nodes[below])
+    # Away from the skin distances are known to a voxel, but not to the side.
+    np.testing.assert_allclose(now[np.abs(before) < 0.004], before[np.abs(before) < 0.004], atol=1e-4)
+    np.testing.assert_array_equal(now < 0, before < 0)
+    assert opened.distance(np.array(holes) - [0.0, 0.0, 0.03]).max() < 0.0

@@ -26,7 +26,7 @@ _ON_SKIN = 1.2 * _VOXEL
 
 def hair_tight_surface(head: Head) -> tuple[TriangleMesh, Floats]:
     """The closed surface [m] and, per vertex, how far it turns with the head, as Head.head_weight."""
-    solid, origin = _voxels(head.skin)
+    solid, origin = _voxels(head)
     depth = _smooth_depth(_closed(solid))
     surface = _surface(depth, origin)
     on_skin, distance = locator(head.skin).nearest(surface.vertices)
@@ -36,9 +36,9 @@ def hair_tight_surface(head: Head) -> tuple[TriangleMesh, Floats]:
     return surface.moved(vertices), weight
 
 
-def _voxels(skin: TriangleMesh) -> tuple[NDArray[np.bool_], Floats]:
+def _voxels(head: Head) -> tuple[NDArray[np.bool_], Floats]:
     """The solid inside the skin as voxels, and the position of the first voxel's middle [m]."""
-    body = standing_on_floor(skin)
+    body = standing_on_floor(head)
     margin = _BALL + 4 * _VOXEL
     origin = body.bounds[0] - margin
     shape = np.ceil((body.bounds[1] + margin - origin) / _VOXEL).astype(int)
@@ -50,8 +50,13 @@ def _voxels(skin: TriangleMesh) -> tuple[NDArray[np.bool_], Floats]:
     return ndimage.binary_fill_holes(shell), origin
 
 
-def standing_on_floor(mesh: TriangleMesh) -> TriangleMesh:
-    """``mesh`` with a wall from every border straight down to one floor: below a bust, the body goes on."""
+def standing_on_floor(head: Head) -> TriangleMesh:
+    """The skin of a bust as a closed surface: a wall from every cut straight down to one floor, for below it the body goes
+    on; and a lid on every hole in the face, such as a socket without an eye.
+
+    A hole of the face is what ends above the chin. A wall from there would come out under the jaw and go through the chest.
+    """
+    mesh = head.skin
     border = igl.boundary_facets(mesh.faces)[0]
     count = len(mesh.vertices)
     low = mesh.vertices.copy()
@@ -59,12 +64,18 @@ def standing_on_floor(mesh: TriangleMesh) -> TriangleMesh:
     graph = sparse.coo_array((np.ones(len(border)), tuple(border.T)), shape=(count, count))
     _, label = sparse.csgraph.connected_components(graph, directed=False)
     opening, member = np.unique(label[border[:, 0]], return_inverse=True)
-    sums = np.stack([np.bincount(member, low[border[:, 0], k], len(opening)) for k in range(3)], axis=1)
+    lowest = np.full(len(opening), np.inf)
+    np.minimum.at(lowest, member, mesh.vertices[border[:, 0], 1])
+    cut = (lowest < head.landmarks.chin[1])[member]
+    # Where its lid or its piece of the floor lies.
+    rim = border + count * cut[:, None]
+    vertices = np.concatenate([mesh.vertices, low])
+    sums = np.stack([np.bincount(member, column, len(opening)) for column in vertices[rim[:, 0]].T], axis=1)
     middle = sums / np.bincount(member, minlength=len(opening))[:, None]
-    a, b = border.T
+    a, b = border[cut].T
     wall = [np.column_stack([b, a, a + count]), np.column_stack([b, a + count, b + count])]
-    floor = np.column_stack([b + count, a + count, 2 * count + member])
-    return TriangleMesh(np.concatenate([mesh.vertices, low, middle]), np.concatenate([mesh.faces, *wall, floor]))
+    ends = np.column_stack([rim[:, 1], rim[:, 0], 2 * count + member])
+    return TriangleMesh(np.concatenate([vertices, middle]), np.concatenate([mesh.faces, *wall, ends]))
 
 
 def _closed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -25,6 +25,7 @@ _BAND = 2.0  # how far from the skin distances are exact, in voxels
 _MARGIN = 0.02  # of the grid around the body [m]
 _FOLD = 0.014  # radius of the ball that does not get into a fold of the face [m]
 _BESIDE = 0.009  # a straight way from farther off the skin than this to the next point does not cut an ear [m]
+_LEAF = 0.009  # the breadth of a blur in which an ear is a bump [m]
 _REACH = 0.32  # how far hair may stand off the body or hang below the bust [m]
 
 
@@ -45,7 +46,7 @@ class Surroundings:
     @classmethod
     def around(cls, head: Head) -> Surroundings:
         """Measure the space around ``head``. Below the bust the body is taken to go straight down."""
-        body = standing_on_floor(head.skin)
+        body = standing_on_floor(head)
         grid = Grid.over(body.bounds[0] - _MARGIN, body.bounds[1] + _MARGIN, _VOXEL)
         distances = _signed_distances(body, grid)
         proportions = Proportions.of(head.landmarks)
@@ -104,6 +105,21 @@ class Surroundings:
         if margin not in self._near_tables:
             self._near_tables[margin] = self.distances < margin + np.sqrt(0.75) * self.skin_grid.spacing
         return self._near_tables[margin]
+
+    def around_ears(self, points: Singles) -> Singles:
+        """Unit direction away from a body whose ears are no leaves but bumps, (k, 3), at ``points`` [m], (k, 3): from both
+        sides of an ear it leads around its rim.
+        """
+        gradient = self.skin_grid.value_and_gradient(self._without_leaves, points)[1]
+        columns = gradient.T
+        columns /= np.maximum(np.sqrt(np.einsum("ij,ij->j", columns, columns)), np.float32(1e-6))
+        return gradient
+
+    @cached_property
+    def _without_leaves(self) -> Singles:
+        """Distances blurred until what is as thin as an ear has no sides of its own [m], (size,)."""
+        blurred = ndimage.gaussian_filter(self.distances.reshape(self.skin_grid.shape), _LEAF / self.skin_grid.spacing)
+        return blurred.ravel()
 
     @cached_property
     def beside_ears(self) -> NDArray[np.bool_]:
