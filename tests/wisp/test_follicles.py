@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from headstudio.head.length_maps import sample
 from headstudio.head.scalp_settings import GrayImage
 from headstudio.params import ParameterError
-from headstudio.wisp.follicles import scatter_strands, spread_wisps
+from headstudio.wisp.follicles import fulness, scatter_strands, spread_wisps
 from headstudio.wisp.maps import density_map, length_map, protrusion_map
 from headstudio.wisp.parting import Parting
 from headstudio.wisp.rest import rest_outlines
@@ -50,7 +50,8 @@ def test_strands_are_as_dense_as_the_map_says(scalp, name):
     roots, wisp = scatter_strands(regions, 40_000, 1)
     # Against even roots that were thinned by the map, counted in 40 cells of the skin.
     even = scalp.random_points(400_000, np.random.default_rng(2))
-    expected = scalp.points(even[np.random.default_rng(3).random(len(even)) < sample(image, even)])
+    density = sample(image, even) * fulness(scalp, None, scalp.points(even))
+    expected = scalp.points(even[2 * np.random.default_rng(3).random(len(even)) < density])
     cells = cKDTree(scalp.points(scalp.random_points(40, np.random.default_rng(4))))
     counts, wanted = (np.bincount(cells.query(points)[1], minlength=40) for points in (roots, expected))
     np.testing.assert_allclose(counts / len(roots), wanted / len(expected), atol=0.004)
@@ -95,6 +96,25 @@ def test_no_wisp_reaches_across_the_parting(scalp, name):
     clear = near & (np.abs(side) > 0.0015)
     assert clear.sum() > 500
     assert (side[clear] * home[clear] > 0).mean() > 0.995
+
+
+def test_the_line_of_a_parting_is_fine_and_bare_and_hair_stands_close_beside_it(scalp):
+    parting = Parting.of(scalp, WispSettings(parting="centre"))
+    roots, _ = scatter_strands(spread_wisps(scalp, EVEN, 800, parting, 1), 100_000, 1)
+    distance, at = cKDTree(parting.points).query(roots)
+    distance = distance[(at > 10) & (at < len(parting.points) - 40)]
+    # All hair that grows beside the line within 2.3 mm is drawn to within 1.7 mm, and none onto it.
+    assert distance.min() > 0.0006
+    per_millimetre = np.histogram(distance, [0.0007, 0.0017, 0.010, 0.011, 0.030, 0.031])[0]
+    assert per_millimetre[0] > 2.0 * per_millimetre[4]
+    assert 1.1 * per_millimetre[4] < per_millimetre[2] < 1.6 * per_millimetre[4]
+
+
+def test_around_the_whorl_hair_is_fuller(scalp):
+    at_whorl = scalp.points(scalp.whorl[None])
+    assert fulness(scalp, None, at_whorl)[0] > 1.8
+    far = scalp.points(np.array([[0.5, 0.02], [0.5, 0.98]]))
+    np.testing.assert_allclose(fulness(scalp, None, far), 1.0, atol=1e-3)
 
 
 def test_hair_leans_away_from_the_parting_and_by_the_protrusion_map(scalp):

@@ -9,7 +9,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.head import Head
-from ..head.mesh import Floats
+from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot
 from ..lcp.model import HairModel
 from ..scene.settings import Look
 from ..wisp.strands import Strands
@@ -37,7 +38,7 @@ def ground_cover(head: Head, growth: Growth) -> Floats:
     cover = np.zeros(len(head.skin.vertices))
     if len(roots) < _NEAREST:
         return cover
-    distance, _ = cKDTree(growth.points[roots]).query(
+    distance, _ = cKDTree(_stubs(head, growth, roots)).query(
         head.skin.vertices, k=[_NEAREST], distance_upper_bound=_REACH, workers=-1
     )
     near = np.isfinite(distance[:, 0])
@@ -45,6 +46,20 @@ def ground_cover(head: Head, growth: Growth) -> Floats:
     width = 2.0 * (DEFAULT_RADIUS if growth.radius is None else float(growth.radius[roots].mean()))
     cover[near] = 1.0 - np.exp(-_STUB * width * density)
     return cover
+
+
+def _stubs(head: Head, growth: Strands, roots: Ints) -> Floats:
+    """Where on the skin the middle of what covers it is [m], (k, 3), of strands whose first points are ``roots``, (k,).
+
+    Hair that lies down covers the skin beside its root: where it leaves a parting to both sides the line stays pale.
+    """
+    points = growth.points
+    place = points[roots].astype(np.float64)
+    onward = points[np.minimum(roots + 1, len(points) - 1)] - place
+    length = np.maximum(np.linalg.norm(onward, axis=1, keepdims=True), 1e-9)
+    normals = head.skin.vertex_normals[cKDTree(head.skin.vertices).query(place, workers=-1)[1]]
+    lying = onward - row_dot(onward, normals)[:, None] * normals
+    return place + np.minimum(0.5 * _STUB, length) * lying / length
 
 
 def ground_colour(growth: Growth, look: Look) -> Floats:

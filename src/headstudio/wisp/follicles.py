@@ -16,10 +16,12 @@ from ..head.length_maps import sample
 from ..head.mesh import Floats, Ints
 from ..head.scalp import Scalp
 from ..head.scalp_settings import GrayImage
+from .hairline import thinning
 from .parting import Parting
 
 _LARGEST_TILE = 0.004  # edge [m]
 _LLOYD_STEPS = 4
+_MORE, _WHORL, _BESIDE_PARTING = 0.9, 0.016, 0.008  # so much more hair, within so far of whorl and parting [m]
 # Additive recurrence of Roberts (2018): its points fill a cube evenly, however many of them one takes.
 _PLASTIC = 1.2207440846057596
 _STRIDE = np.array([1 / _PLASTIC, 1 / _PLASTIC**2, 1 / _PLASTIC**3])
@@ -58,7 +60,7 @@ class Regions:
     in each region, (W,). reach: no strand of a region has its root farther than this from the master's [m], (W,).
     weight: how much hair each tile carries, (m,). nearest: of each tile the wisps that may own a part of it, (m, 4).
     places, corner_places: masters, (W, 4), and vertices of the tiles, (n, 4), in the coordinates in which the regions are
-    Voronoi's: position and detour around the parting [m].
+    Voronoi's: position and detour around the parting [m]. parting: the parting, if any.
     """
 
     tiles: Tiles
@@ -70,6 +72,7 @@ class Regions:
     nearest: Ints
     places: Floats
     corner_places: Floats
+    parting: Parting | None = None
 
     @property
     def count(self) -> int:
@@ -78,14 +81,19 @@ class Regions:
 
 
 @lru_cache(maxsize=4)
-def spread_wisps(scalp: Scalp, density: GrayImage, count: int, parting: Parting | None, seed: int) -> Regions:
+def spread_wisps(
+    scalp: Scalp, density: GrayImage, count: int, parting: Parting | None, seed: int, hairline: float = 0.0
+) -> Regions:
     """Spread ``count`` master roots evenly over the skin where hair grows, by Lloyd's relaxation in the skin's own metric.
 
     Fewer, if hair grows on fewer tiles. Each region is what lies nearer to its root than to any other, on the same bank
-    of the parting. The last few results are kept: most of what an artist changes does not move a root.
+    of the parting. hairline: how far from the border of the scalp hair is still sparser [m]. The last few results are kept:
+    most of what an artist changes does not move a root.
     """
     tiles = tiles_of(scalp)
-    weight = tiles.areas * sample(density, tiles.uv[tiles.corners].mean(axis=1))
+    middles = tiles.vertices[tiles.corners].mean(axis=1)
+    weight = tiles.areas * sample(density, tiles.uv[tiles.corners].mean(axis=1)) * thinning(scalp, middles, hairline)
+    weight = weight * fulness(scalp, parting, middles)
     corner_places = _places(tiles.vertices, parting)
     centres = corner_places[tiles.corners].mean(axis=1)
     # Even over the skin, whatever the density: the paper's density map says how many strands a wisp has.
@@ -105,9 +113,20 @@ def spread_wisps(scalp: Scalp, density: GrayImage, count: int, parting: Parting 
     owner = _owners(places, centres)
     nearest = np.column_stack([owner, _owners(places, corner_places)[tiles.corners]])
     share = np.bincount(owner, weight, minlength=count) / weight.sum()
-    return Regions(
-        tiles, roots, uv, share, _reach(tiles, weight, nearest, roots), weight, nearest, places, corner_places
-    )
+    reach = _reach(tiles, weight, nearest, roots)
+    return Regions(tiles, roots, uv, share, reach, weight, nearest, places, corner_places, parting)
+
+
+def fulness(scalp: Scalp, parting: Parting | None, places: Floats) -> Floats:
+    """How many times as densely as elsewhere hair grows at places of the skin [m], (n, 3), for its flow: (n,).
+
+    Hair that leaves a line or a place to all sides lies there in one layer, and every root that is missing shows.
+    """
+    at_whorl = np.linalg.norm(places - scalp.points(scalp.whorl[None]), axis=1)
+    more = np.exp(-((at_whorl / _WHORL) ** 2))
+    if parting is not None:
+        more = np.maximum(more, np.exp(-((parting.distance(places) / _BESIDE_PARTING) ** 2)))
+    return 1.0 + _MORE * more
 
 
 def scatter_strands(regions: Regions, total: int, seed: int) -> tuple[Floats, Ints]:
@@ -128,7 +147,13 @@ def scatter_strands(regions: Regions, total: int, seed: int) -> tuple[Floats, In
     candidates = regions.nearest[tile]
     distance = np.stack([_squared(place - regions.places[candidates[:, k]]) for k in range(4)])
     wisp = candidates[np.arange(total), distance.argmin(axis=0)]
-    return np.ascontiguousarray(place[:, :3]), wisp
+    roots = np.ascontiguousarray(place[:, :3])
+    if regions.parting is not None:
+        drawn = regions.parting.drawn(roots)
+        # A wisp is as wide at its root as its region is, and no comb takes a strand out of it.
+        inside = _squared(drawn - regions.roots[wisp]) <= regions.reach[wisp] ** 2
+        roots = np.where(inside[:, None], drawn, roots)
+    return roots, wisp
 
 
 def _places(points: Floats, parting: Parting | None) -> Floats:

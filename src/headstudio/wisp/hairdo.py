@@ -77,7 +77,7 @@ class _Grown:
 _CURLS = (
     "prototype", "prototype_curve", "curl_size", "curl_length", "straight_roots", "temperature", "window", "alignment",
 )  # fmt: skip
-_STRANDS = ("points", "length_distribution", "length_curve", "fuzziness", "shaft_root", "shaft_tip", "hairline")
+_STRANDS = ("points", "length_distribution", "length_curve", "fuzziness", "shaft_root", "shaft_tip")
 _OUTLINES = tuple(field.name for field in fields(WispSettings) if field.name not in (*_CURLS, *_STRANDS))
 
 
@@ -174,7 +174,7 @@ def _spread(scalp: Scalp, wisp: WispSettings, announce: Callable[[str], None]) -
     """Spread the wisps over the scalp."""
     announce("wisps")
     parting = Parting.of(scalp, wisp)
-    regions = spread_wisps(scalp, density_map(wisp), wisp.wisps, parting, wisp.seed)
+    regions = spread_wisps(scalp, density_map(wisp), wisp.wisps, parting, wisp.seed, wisp.hairline)
     return _Spread(regions, *rest_outlines(scalp, regions, parting, wisp))
 
 

@@ -26,6 +26,8 @@ _SPACING = 0.001  # between the points that stand for the line [m]
 _APART = 0.015
 # Hair that grows as far from the line as this is in no doubt about its side [m].
 _TURN = 0.02
+# The line itself is bare, and a comb draws hair from so far to its edge: half its breadth, and how far [m].
+_BARE, _DRAWN = 0.0007, 0.005
 # A line that ends this near to the border of the square goes on so far beyond it [m].
 _BORDER, _BEYOND = 0.03, 0.02
 
@@ -78,6 +80,22 @@ class Parting:
         """
         short, index = self._short_of(_TURN, points)
         return short[:, None] * self.leftward[index]
+
+    def distance(self, points: Floats) -> Floats:
+        """How far from the line points of the skin are [m], (n, 3): (n,)."""
+        distance: Floats = self._tree.query(points)[0]
+        return distance
+
+    def drawn(self, roots: Floats) -> Floats:
+        """Roots of hair [m], (n, 3), where a comb takes them: nearer to the line, and not onto it; each stays on its bank."""
+        distance, index = self._tree.query(roots, distance_upper_bound=_DRAWN)
+        near = np.flatnonzero(np.isfinite(distance))
+        across = self.leftward[index[near]]
+        side = np.einsum("ij,ij->i", roots[near] - self.points[index[near]], across)
+        wanted = _BARE + (1.0 - _BARE / _DRAWN) * side**2 / _DRAWN
+        drawn = roots.copy()
+        drawn[near] += (np.copysign(wanted, side) - side)[:, None] * across
+        return drawn
 
     def _short_of(self, reach: float, points: Floats) -> tuple[Floats, Ints]:
         """By how much points, (n, 3), are nearer to the line than ``reach`` [m], (n,), negative on the right of it, and

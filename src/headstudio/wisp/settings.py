@@ -137,12 +137,12 @@ class WispSettings:
         15e-6, "Shaft at the tip", "m", 1e-6, 500e-6, "Half the thickness of a strand at its tip.", shown="mm", log=True
     )
     hairline: float = number(
-        0.008,
+        0.010,
         "Soft hairline",
         "m",
         0.0,
         0.05,
-        "How far from the border of the scalp hair is still finer, as baby hair is.",
+        "How far from the border of the scalp hair is still finer and sparser; at the nape it is twice as far.",
         shown="mm",
     )
     seed: int = integer(1, "Seed", 0, 2**31 - 1, "Start of the random numbers: the same seed gives the same hair.")
