@@ -60,7 +60,7 @@ def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tupl
     thickness = operation.thickness
     knot, middle = _braid_path(operation, surroundings, longest)
     side, front = sideways(surroundings, middle)
-    width = 0.35 * thickness * operation.groups
+    width = 0.31 * thickness * operation.groups
     locks = plait(middle, side, front, operation.groups, width, 0.55 * thickness, operation.period)
     gather = PointConstraint(knot, 1.5 * thickness, 1.0, surroundings)
     end = PointConstraint(middle[-1], 1.2 * thickness)
