@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from headstudio.lcp.contact import Touching
+from headstudio.lcp.contact import LONGEST_REACH, Touching
 from headstudio.lcp.resting import Meeting, solve_at_body
 from headstudio.lcp.settings import DynamicsSettings
 from headstudio.lcp.spring_matrix import SpringMatrix
@@ -23,7 +23,7 @@ class Lying:
 
     def __init__(self, seed=0, count=5, elastic_modulus=1e4):
         rng = np.random.default_rng(seed)
-        self.model = hanging_chain(count)
+        self.model = hanging_chain(count, arc_length=0.01 * np.arange(count))
         springs = Springs(self.model)
         links = springs.at(self.model.rest_positions, elastic_modulus)
         self.matrix = SpringMatrix(self.model, springs)
@@ -63,7 +63,10 @@ class Lying:
         for row, i in enumerate(free):
             normals[row, 3 * row : 3 * row + 3] = self.meeting.touch.normals[i]
         wanted = (self.meeting.least - self.meeting.leaving)[free]
+        planes = self.meeting.touch.normals[free].any(axis=1)
         for choice in product([False, True], repeat=len(free)):
+            if np.any(~planes[list(choice)]):
+                continue
             n = normals[list(choice)]
             size = len(n)
             whole = np.block([[matrix, -G * n.T], [n, np.zeros((size, size))]])
@@ -106,6 +109,28 @@ def test_what_is_let_go_is_filled_in_as_it_was():
     before = lying.dense()
     lying.solve(np.full(lying.model.count, 1e-3), friction=0.7)
     np.testing.assert_array_equal(lying.dense(), before)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_taut_hair_ends_at_its_reach_and_pulls_the_rest(seed):
+    """The same law with planes square to the roots: springs know of a tether before they are solved."""
+    lying = Lying(seed, elastic_modulus=1e3)
+    model, count = lying.model, lying.model.count
+    nowhere = Touching(np.full(count, np.inf), np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count))
+    lying.velocities = 2.0 * np.random.default_rng(seed).normal(size=(count, 3)) * ~model.fixed[:, None]
+    start = model.root_points + 1.02 * (model.rest_positions - model.root_points)
+    ahead = start + G * lying.velocities
+    lying.meeting = Meeting.ahead(nowhere, lying.velocities, G).taut(model, ahead, lying.velocities, G)
+    wanted, pulling = lying.by_trying_all()
+    change, force = lying.solve(friction=0.5)
+    np.testing.assert_allclose(change[~model.fixed], wanted, atol=1e-5)
+    np.testing.assert_allclose(force, pulling, atol=1e-5)
+    held = force > 0
+    assert held.any()
+    outward = (ahead - model.root_points)[held]
+    reach = np.linalg.norm(outward, axis=1)
+    along = reach + G * np.einsum("ij,ij->i", change[held], outward) / reach
+    np.testing.assert_allclose(along, LONGEST_REACH * model.arc_length[held], rtol=1e-4)
 
 
 @pytest.fixture

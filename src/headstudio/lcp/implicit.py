@@ -86,6 +86,7 @@ class ImplicitSolver:
         right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
         # The plane that a particle is heading for tells how far from it the step starts.
         meeting = Meeting.ahead(dynamics.touch(ahead, frame), v, g)
+        bounds = meeting.taut(model, ahead, v, g)
         pressing = np.zeros(model.count) if state.before is None or state.pressing is None else state.pressing
         with dynamics.timer.stage("solve"):
             inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
@@ -94,7 +95,7 @@ class ImplicitSolver:
                 self._matrix,
                 right,
                 v - v_before,
-                meeting,
+                bounds,
                 model.fixed,
                 pressing,
                 settings.body_friction,
@@ -108,12 +109,12 @@ class ImplicitSolver:
         # A stopped particle has a kink in its path. It looks back on one straightened by that much, or it would bounce.
         kink = x_new - (x_hat + g * free)
         held = pressing > 0
-        kink[held] = meeting.touch.normals[held]
+        kink[held] = bounds.touch.normals[held]
         before = (
             x + _along(kink, x_new - dt * v_new - x, _STRAIGHTENED),
             v + _along(kink, v_new - v, _STRAIGHTENED / g),
         )
-        pressing = np.where(held, pressing, model.mass * impulse / g)
+        pressing = np.where(held & bounds.rubs, pressing, model.mass * impulse / g)
         return HairState(x_new, v_new, state.directions, state.time + dt, before, pressing)
 
     def _earlier(

@@ -1,4 +1,4 @@
-"""Hair that lies on the body, within the solution of an implicit step.
+"""Hair that lies on the body, or is at the end of its reach, within the solution of an implicit step.
 
 Springs press it on the body and draw it along. If it were stopped only after the solution, they would not know until the
 next step, and the force of the body would lag behind by many. So what the springs are solved for is
@@ -8,19 +8,21 @@ next step, and the force of the body would lag behind by many. So what the sprin
 with v_b the velocity of the body, n its normal, w the least departure of contact.py and lambda the force that holds a
 particle, which is zero wherever it leaves faster than that. Coulomb's friction mu lambda across n (eq. 3.22, 3.23) is a
 drag, mu lambda / |slip| times the slip v + dv - v_b across n. Which particles are held, and how strongly they are dragged,
-is taken from the step before and then from a first, rough solution.
+is taken from the step before and then from a first, rough solution. Hair that is taut is held alike, by a plane square to
+its root.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats
 from ..head.rows import row_dot, row_length
-from .contact import RESTING, Touching, least_departure
+from .contact import LONGEST_REACH, RESTING, Touching, least_departure
+from .model import HairModel
 from .spring_matrix import SpringMatrix
 
 _ROUGHLY = 10.0  # times the tolerance: good enough to tell which particles are held
@@ -43,6 +45,7 @@ class Meeting:
     leaving: Floats
     least: Floats
     lies: NDArray[np.bool_]
+    rubs: NDArray[np.bool_]
 
     @classmethod
     def ahead(cls, touch: Touching, velocities: Floats, dt: float) -> Meeting:
@@ -51,7 +54,29 @@ class Meeting:
         leaving = row_dot(slip, touch.normals)
         distance = touch.distance - dt * leaving
         least = least_departure(touch, distance, dt)
-        return cls(touch, distance, slip, leaving, least, touch.distance <= touch.keep + RESTING)
+        lies = touch.distance <= touch.keep + RESTING
+        return cls(touch, distance, slip, leaving, least, lies, np.ones_like(lies))
+
+    def taut(self, model: HairModel, ahead: Floats, velocities: Floats, dt: float) -> Meeting:
+        """The same with what is taut: hair that ``velocities`` [m/s] lead to ``ahead`` [m] in dt [s], beyond its reach.
+
+        ahead, velocities: (n, 3). It meets a plane square to its root, without friction, instead of its own. Hair that meets
+        the body as well is left to stop_at_reach.
+        """
+        outward = ahead - model.root_points
+        reach = row_length(outward)
+        over = reach - LONGEST_REACH * model.arc_length
+        which = np.flatnonzero((over > 0) & ~model.fixed & ~self.lies & (self.leaving >= self.least))
+        normals = self.touch.normals.copy()
+        normals[which] = -outward[which] / reach[which, None]
+        leaving, least, slip, rubs = self.leaving.copy(), self.least.copy(), self.slip.copy(), self.rubs.copy()
+        slip[which] = velocities[which]
+        leaving[which] = row_dot(velocities[which], normals[which])
+        least[which] = leaving[which] + over[which] / dt
+        rubs[which] = False
+        return replace(
+            self, touch=replace(self.touch, normals=normals), slip=slip, leaving=leaving, least=least, rubs=rubs
+        )
 
     def distance_after(self, change: Floats, dt: float) -> Floats:
         """Distance of the particles [m], (n,), when dt [s] pass with ``change`` [m/s], (n, 3), more velocity than now."""
@@ -83,7 +108,7 @@ def solve_at_body(
         slip = meeting.slip[which] - meeting.leaving[which, None] * normal
         sliding = slip + _across(change[which], normal)
         speed = row_length(sliding)
-        drag = g * friction * pressing[which] / np.maximum(speed, _STICKING)
+        drag = g * friction * meeting.rubs[which] * pressing[which] / np.maximum(speed, _STICKING)
         matrix.hold(which, normal, drag)
         dragged, start = right.copy(), change.copy()
         dragged[which] -= drag[:, None] * slip
