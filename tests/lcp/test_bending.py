@@ -57,7 +57,9 @@ def curvature(model, positions, dt=1e-6, velocities=None, directions=None, stiff
     v = np.zeros_like(positions) if velocities is None else velocities
     t = model.rest_directions if directions is None else directions
     bending = Bending(model)
-    return bending.curvature_force(positions, v, bending.rest_turn(t), DynamicsSettings(stiffness=stiffness), dt)
+    settings = DynamicsSettings(stiffness=stiffness)
+    rigidity = bending.rigidity(settings) * bending.carried(settings, dt)
+    return bending.curvature_force(positions, v, bending.rest_turn(t), rigidity)
 
 
 def test_hair_at_rest_has_the_curvature_it_wants(hair):

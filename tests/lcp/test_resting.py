@@ -5,6 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
+from headstudio.lcp.bending import Bending
 from headstudio.lcp.contact import LONGEST_REACH, Touching
 from headstudio.lcp.resting import Meeting, solve_at_body
 from headstudio.lcp.settings import DynamicsSettings
@@ -27,7 +28,8 @@ class Lying:
         springs = Springs(self.model)
         links = springs.at(self.model.rest_positions, elastic_modulus)
         self.matrix = SpringMatrix(self.model, springs)
-        self.matrix.update(links, springs.load(links, SETTINGS), G, self.model.mass)
+        self.fill = lambda: self.matrix.update(links, springs.load(links, SETTINGS), G, self.model.mass)
+        self.fill()
         normals = rng.normal(size=(count, 3))
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
         self.velocities = 0.2 * rng.normal(size=(count, 3)) * ~self.model.fixed[:, None]
@@ -131,6 +133,26 @@ def test_taut_hair_ends_at_its_reach_and_pulls_the_rest(seed):
     reach = np.linalg.norm(outward, axis=1)
     along = reach + G * np.einsum("ij,ij->i", change[held], outward) / reach
     np.testing.assert_allclose(along, LONGEST_REACH * model.arc_length[held], rtol=1e-4)
+
+
+def test_stiff_bending_is_in_the_solution_by_its_own_derivative():
+    """What T^T R T adds to the matrix is what the force of bending loses for a velocity to come, held particles and all."""
+    lying, settings = Lying(3, count=8), DynamicsSettings(stiffness=10.0)
+    model, bending = lying.model, Bending(lying.model)
+    stiff = bending.too_stiff(settings, 1.0)
+    assert len(stiff.rigidity) == 6
+    before = lying.dense()
+    lying.matrix.stiffen(stiff, G)
+    lying.fill()
+    added = (lying.dense() - before).reshape(7, 3, 7, 3)
+    for particle, axis in product(range(7), range(3)):
+        faster = np.zeros_like(model.rest_positions)
+        faster[particle + 1, axis] = 1.0
+        rest_turn = bending.rest_turn(model.rest_directions)
+        force = bending.curvature_force(
+            model.rest_positions + G * faster, faster, rest_turn, bending.rigidity(settings)
+        )
+        np.testing.assert_allclose(added[:, :, particle, axis], -G * force[1:], atol=1e-6 * np.abs(added).max())
 
 
 @pytest.fixture

@@ -6,6 +6,8 @@ piece, which every operation on such arrays then hands on.
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from .mesh import Floats
@@ -14,8 +16,13 @@ from .mesh import Floats
 def row_dot(a: Floats, b: Floats) -> Floats:
     """a_i . b_i of vectors (n, k), (n,)."""
     product = a * b
-    dots: Floats = product @ np.ones(product.shape[-1])
+    dots: Floats = product @ _ones(product.shape[-1])
     return dots
+
+
+@cache
+def _ones(count: int) -> Floats:
+    return np.ones(count)
 
 
 def in_columns(a: Floats) -> Floats:

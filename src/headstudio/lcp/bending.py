@@ -15,6 +15,8 @@ from its rootward ones is how far the hair turns there; the beam answers with th
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import eigsh
@@ -31,6 +33,19 @@ _HIGHEST = 2000.0  # of kappa [1/s^2]: stiffer hair moves with the head all the 
 _REACH = 2.0  # bending lengths at which half of the weight is still carried
 _STEP_LIMIT = 0.5  # of a square frequency times a square step that an explicit step still carries
 _RELAXATION = 0.004  # bending dies away within this time beyond its period [s]
+
+
+@dataclass(frozen=True, eq=False)
+class StiffTurning:
+    """Energy of bending, the sum of rigidity / 2 [J], (k,), times the squares of the turns that ``turn`` makes of positions,
+    (k, n) [rad/m]."""
+
+    turn: sparse.csr_array
+    rigidity: Floats
+
+    def damped(self, g: float) -> Floats:
+        """``rigidity`` in M + g D + g^2 K for an implicit step of weight g [s], (k,)."""
+        return g * (g + _RELAXATION) * self.rigidity
 
 
 class Bending:
@@ -69,18 +84,27 @@ class Bending:
         """How far hair of these unit directions, (n, 3), turns at every particle when it is at rest [rad], (n, 3)."""
         return turned_along(self._rest_turn, self.model.rest_directions, directions)
 
-    def curvature_force(
-        self, positions: Floats, velocities: Floats, rest_turn: Floats, settings: DynamicsSettings, dt: float
-    ) -> Floats:
+    def rigidity(self, settings: DynamicsSettings) -> Floats:
+        """Energy of a turn of one radian at every particle, times two [J], (n,)."""
+        return self.model.mass * settings.stiffness * self._rigidity
+
+    def carried(self, settings: DynamicsSettings, dt: float) -> Floats:
+        """Part of ``rigidity``, 0 to 1, that an explicit step of dt [s] carries, (n,)."""
+        return 1.0 / np.maximum(settings.stiffness * self._fastest * dt * dt / _STEP_LIMIT, 1.0)
+
+    def curvature_force(self, positions: Floats, velocities: Floats, rest_turn: Floats, rigidity: Floats) -> Floats:
         """Force that restores the curvature of the initial shape [N], (n, 3).
 
-        positions [m] and velocities [m/s], head frame, and what ``rest_turn`` says of the directions, (n, 3). dt: the step
-        to come [s]; hair too stiff for an explicit step is taken as stiff as it can be.
+        positions [m] and velocities [m/s], head frame, and what ``rest_turn`` says of the directions, (n, 3). rigidity: as
+        above [J], (n,).
         """
-        weakening = np.maximum(settings.stiffness * self._fastest * dt * dt / _STEP_LIMIT, 1.0)
-        rigidity = self.model.mass * settings.stiffness * self._rigidity / weakening
         excess = self._turn @ (positions + _RELAXATION * velocities) - rest_turn
         return -(self._turn_back @ (rigidity[:, None] * excess))
+
+    def too_stiff(self, settings: DynamicsSettings, dt: float) -> StiffTurning:
+        """What of the bending an explicit step of dt [s] does not carry, for the matrix of an implicit one."""
+        rows = np.flatnonzero(self.carried(settings, dt) < 1.0)
+        return StiffTurning(self._turn[rows], self.rigidity(settings)[rows])
 
 
 def _square_frequencies(turn: sparse.csr_array, rigidity: Floats) -> Floats:
@@ -124,9 +148,11 @@ def _mean_of(at: np.ndarray, of: np.ndarray, weight: Floats, shape: tuple[int, i
 
 def turned_along(vectors: Floats, before: Floats, after: Floats) -> Floats:
     """``vectors`` turned by the smallest turn that leads from the unit directions ``before`` to ``after``, (n, 3) each."""
-    axis = np.cross(before, after)
     cosine = row_dot(before, after)
-    once = np.cross(axis, vectors)
-    twice = np.cross(axis, once)
-    # Rodrigues' formula with sin and cos put in; hair that points the other way round turns about any axis.
-    return vectors + once + twice / np.maximum(1.0 + cosine, 1e-3)[:, None]
+    along_before, along_after = row_dot(before, vectors), row_dot(after, vectors)
+    # Rodrigues' formula v + a x v + a x (a x v) / (1 + cos) about a, the cross product of the directions, written out.
+    # Hair that points the other way round turns about any axis.
+    scale = 1.0 / np.maximum(1.0 + cosine, 1e-3)
+    to_after = along_before + scale * (cosine * along_before - along_after)
+    to_before = along_after + scale * (along_before - cosine * along_after)
+    return vectors + to_after[:, None] * after - to_before[:, None] * before

@@ -75,15 +75,17 @@ class Dynamics:
         return acceleration
 
     def bending_acceleration(
-        self, settings: DynamicsSettings, positions: Floats, velocities: Floats, rest_turn: Floats, dt: float
+        self, settings: DynamicsSettings, positions: Floats, velocities: Floats, directions: Floats, dt: float = 0.0
     ) -> Floats:
         """What keeps a single hair in shape [m/s^2], (n, 3).
 
-        positions [m], velocities [m/s] and the turn of the hair at rest, Bending.rest_turn [rad]: (n, 3). dt: the step to
-        come [s].
+        positions [m], velocities [m/s] and unit hair directions: (n, 3). dt: of an explicit step to come [s]; hair too
+        stiff for it is taken as stiff as it can be.
         """
         with self.timer.stage("bending"):
-            force = self.bending.curvature_force(positions, velocities, rest_turn, settings, dt)
+            rest_turn = self.bending.rest_turn(directions)
+            rigidity = self.bending.rigidity(settings) * self.bending.carried(settings, dt)
+            force = self.bending.curvature_force(positions, velocities, rest_turn, rigidity)
             return self.bending.place(positions, settings) + force / self.model.mass[:, None]
 
     def touch(self, positions: Floats, frame: HeadFrame) -> Touching:
@@ -121,8 +123,7 @@ class Dynamics:
                 positions = drawn
             return put_back(self.model, positions, touch, distance)
 
-    def turn(self, positions: Floats, directions: Floats, settings: DynamicsSettings) -> Floats:
-        """Hair directions at new positions (eq. 15), unit, (n, 3)."""
-        links = self.links(positions, settings)
+    def turn(self, links: LinkState, directions: Floats) -> Floats:
+        """Hair directions where ``links`` are (eq. 15), unit, (n, 3)."""
         with self.timer.stage("directions"):
             return updated_directions(self.model, self.springs, links, directions)

@@ -16,8 +16,6 @@ solve it, with hair that lies on the body held there (resting.py).
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from ..head.mesh import Floats
@@ -26,6 +24,7 @@ from .dynamics import Circumstances, Dynamics
 from .inertia import apparent_acceleration
 from .model import HairState
 from .resting import Meeting, solve_at_body
+from .settings import DynamicsSettings
 from .spring_matrix import SpringMatrix
 
 # A step has three parts for links of 3 cm, and more the shorter they are: of what a head's shake does in a part, no link
@@ -35,6 +34,7 @@ _PART_LENGTH = 0.09  # [m]
 _PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
 _STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
 _TOLERANCE = 2e-2
+_G = 2.0 / 3.0  # of a part: the weight of what BDF2 finds at its end
 
 
 class ImplicitSolver:
@@ -49,6 +49,7 @@ class ImplicitSolver:
         self.parts = parts or max(_FEWEST_PARTS, round(_PART_LENGTH / length), affordable)
         self.tolerance = tolerance
         self._matrix = SpringMatrix(model, dynamics.springs)
+        self._stiffened: tuple[float, float] | None = None
 
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
@@ -58,26 +59,32 @@ class ImplicitSolver:
         """
         dynamics = self.dynamics
         outer = dynamics.outer_acceleration(state, now, dt)
-        directions = state.directions
-        rest_turn = dynamics.bending.rest_turn(directions)
+        self._stiffen(now.settings, dt / self.parts)
         for _ in range(self.parts):
-            state = self._part(state, now, outer, rest_turn, dt / self.parts)
-        return replace(state, directions=dynamics.turn(state.positions, directions, now.settings))
+            state = self._part(state, now, outer, dt / self.parts)
+        return state
 
-    def _part(self, state: HairState, now: Circumstances, outer: Floats, rest_turn: Floats, dt: float) -> HairState:
-        """One BDF2 step of dt [s] under the accelerations ``outer`` [m/s^2], with Bending.rest_turn, (n, 3) each."""
+    def _stiffen(self, settings: DynamicsSettings, dt: float) -> None:
+        """Let the matrix know of the bending that parts of dt [s] do not carry by themselves."""
+        if (settings.stiffness, dt) != self._stiffened:
+            self._matrix.stiffen(self.dynamics.bending.too_stiff(settings, dt), _G * dt)
+            self._stiffened = (settings.stiffness, dt)
+
+    def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:
+        """One BDF2 step of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
         dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time + dt)
         model = dynamics.model
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
-        x_before, v_before = state.before or self._earlier(state, now, outer, rest_turn, dt)
+        x_before, v_before = state.before or self._earlier(state, now, outer, dt)
         x_hat, v_hat = (4.0 * x - x_before) / 3.0, (4.0 * v - v_before) / 3.0
-        g = 2.0 * dt / 3.0
+        g = _G * dt
 
         ahead = x_hat + g * v
         links = dynamics.links(ahead, settings)
+        directions = dynamics.turn(links, state.directions)
         load = dynamics.springs.load(links, settings)
-        force = mass * (outer + dynamics.bending_acceleration(settings, ahead, v, rest_turn, dt))
+        force = mass * (outer + dynamics.bending_acceleration(settings, ahead, v, directions))
         # Coriolis turns with the velocity and stays out of the matrix, which is symmetric: it takes the velocity to come,
         # or it would lag behind by a part.
         coming = v + (v - v_before)
@@ -115,11 +122,9 @@ class ImplicitSolver:
             v + _along(kink, v_new - v, _STRAIGHTENED / g),
         )
         pressing = np.where(held & bounds.rubs, pressing, model.mass * impulse / g)
-        return HairState(x_new, v_new, state.directions, state.time + dt, before, pressing)
+        return HairState(x_new, v_new, directions, state.time + dt, before, pressing)
 
-    def _earlier(
-        self, state: HairState, now: Circumstances, outer: Floats, rest_turn: Floats, dt: float
-    ) -> tuple[Floats, Floats]:
+    def _earlier(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> tuple[Floats, Floats]:
         """A position and velocity for the part before the first, such that the first is of second order, too."""
         dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time)
         x, v = state.positions, state.velocities
@@ -128,7 +133,7 @@ class ImplicitSolver:
         springs = dynamics.springs.forces(links, dynamics.springs.load(links, settings), v)
         acceleration = outer - settings.air_friction * v
         acceleration += apparent_acceleration(frame, x, v, settings.gravity)
-        acceleration += dynamics.bending_acceleration(settings, x, v, rest_turn, dt)
+        acceleration += dynamics.bending_acceleration(settings, x, v, state.directions, dt)
         acceleration += springs / dynamics.model.mass[:, None]
         held, _ = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
         acceleration = (held - v) / dt

@@ -48,13 +48,12 @@ class LeapfrogSolver:
         mass = dynamics.model.mass[:, None]
         touch = dynamics.touch(x, frame)
         acceleration = dynamics.outer_acceleration(state, now, dt)
-        rest_turn = dynamics.bending.rest_turn(state.directions)
         acceleration += apparent_acceleration(frame, x, v, settings.gravity)
-        acceleration += dynamics.bending_acceleration(settings, x, v, rest_turn, dt)
+        acceleration += dynamics.bending_acceleration(settings, x, v, state.directions, dt)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, dynamics.springs.load(links, settings), v) / mass
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v, _ = dynamics.hold(x, v, touch, touch.distance, now, dt)
         distance = touch.distance + dt * row_dot(v - touch.velocity, touch.normals)
         x = dynamics.put_back(x + dt * v, touch, distance, now)
-        return HairState(x, v, dynamics.turn(x, state.directions, settings), state.time + dt)
+        return HairState(x, v, dynamics.turn(dynamics.links(x, settings), state.directions), state.time + dt)

@@ -13,6 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints
+from .bending import StiffTurning
 from .model import HairModel
 from .springs import LinkState, Load, Springs
 
@@ -23,7 +24,11 @@ _NINE_TO_SIX = np.array([0, 1, 2, 4, 5, 8])
 
 
 class SpringMatrix:
-    """M + g D + g^2 K of the free particles, and conjugate gradients on it."""
+    """M + g D + g^2 K of the free particles, and conjugate gradients on it.
+
+    K and D are those of the springs, and of bending where it is too stiff for an explicit step: the product of two matrices,
+    which is never worked out.
+    """
 
     def __init__(self, model: HairModel, springs: Springs) -> None:
         self._springs = springs
@@ -56,6 +61,14 @@ class SpringMatrix:
         self._inverse = np.zeros((3, 3, count))
         self._inverse_of_free = np.zeros((3, 3, count))
         self._held = np.zeros(0, dtype=np.int64)
+        self.stiffen(StiffTurning(sparse.csr_array((0, model.count)), np.zeros(0)), 0.0)
+
+    def stiffen(self, bending: StiffTurning, g: float) -> None:
+        """Add T^T R T for bending, which is alike in all directions, with g of the implicit step [s]. Before ``update``."""
+        turn, rigidity = bending.turn[:, self._free], bending.damped(g)
+        self._bending_diagonal = turn.power(2).T @ rigidity
+        self._turn = sparse.block_diag([turn] * 3, format="csr")
+        self._turn_back = (self._turn.T @ sparse.diags_array(np.tile(rigidity, 3))).tocsr()
 
     def update(self, links: LinkState, load: Load, g: float, inertia: Floats) -> None:
         """Fill the matrix for the links at one instant. inertia: what stands on the diagonal besides them [kg], (n,)."""
@@ -75,7 +88,7 @@ class SpringMatrix:
         of_diagonal[[0, 3, 5]] += inertia[self._free]
         of_links *= -1.0
         np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
-        _invert_symmetric(of_diagonal, self._inverse_of_free)
+        _invert_symmetric(_stiffened(of_diagonal, self._bending_diagonal), self._inverse_of_free)
         self._inverse[:] = self._inverse_of_free
         self._held = np.zeros(0, dtype=np.int64)
 
@@ -94,7 +107,7 @@ class SpringMatrix:
         dragged = diagonal[:, place] + (drag * across).reshape(9, -1)[_NINE_TO_SIX]
         data[self._where_diagonal[place]] = dragged.T[:, _SIX_OF_NINE]
         blocks = np.empty((3, 3, len(place)))
-        _invert_symmetric(dragged, blocks)
+        _invert_symmetric(_stiffened(dragged, self._bending_diagonal[place]), blocks)
         stiff = _times(blocks, normal)
         blocks -= stiff[:, None] * (stiff / (stiff * normal).sum(axis=0))[None, :]
         inverse[:, :, place] = blocks
@@ -105,10 +118,10 @@ class SpringMatrix:
         Both are zero at root particles. What is left at held particles along their normal is what holds them, with the
         sign turned round. tolerance: of the rest, as a part of the right side.
         """
-        matrix, inverse = self._matrix, self._inverse
+        inverse = self._inverse
         wanted = right[self._free].ravel(order="F")
         solution = guess[self._free].ravel(order="F")
-        residual = wanted - matrix @ solution
+        residual = wanted - self._of(solution)
         z = _times(inverse, residual)
         direction = z.copy()
         rho = residual @ z
@@ -118,7 +131,7 @@ class SpringMatrix:
         goal = tolerance**2 * (wanted @ _times(inverse, wanted))
         taken = 0
         while rho > goal and taken < _MOST_ITERATIONS:
-            image = matrix @ direction
+            image = self._of(direction)
             step = rho / (direction @ image)
             solution += step * direction
             residual -= step * image
@@ -129,10 +142,24 @@ class SpringMatrix:
             taken += 1
         return self._at_all(solution), self._at_all(residual)
 
+    def _of(self, vectors: Floats) -> Floats:
+        """The matrix times vectors, all x first, then all y, then all z."""
+        product: Floats = self._matrix @ vectors
+        if self._turn.shape[0]:
+            product += self._turn_back @ (self._turn @ vectors)
+        return product
+
     def _at_all(self, of_free: Floats) -> Floats:
         at_all = np.zeros((len(self._place), 3))
         at_all[self._free] = of_free.reshape(3, -1).T
         return at_all
+
+
+def _stiffened(six: Floats, more: Floats) -> Floats:
+    """Symmetric 3 x 3 blocks, (6, n), with as much more on their diagonals, (n,)."""
+    out = six.copy()
+    out[[0, 3, 5]] += more
+    return out
 
 
 def _times(blocks: Floats, vectors: Floats) -> Floats:
