@@ -29,6 +29,8 @@ _FOOT, _FLOOR = 4.0, 1.5
 _WIDEST = 5e-3
 # A valley stands out when it is so many times the noise deep, this deep [m] and this part of the deepest.
 _OVER_NOISE, _SHALLOWEST, _PART = 4.0, 2.5e-4, 0.07
+# What was missed counts from this part of that depth on, and of the length that it takes else.
+_SMALLER = 0.6
 # A first curve passes this near the valley [m]. It ends where less than this part of the depth is left.
 _TOLERANCE, _ENDS = 3e-4, 0.25
 # The sides of a valley are this many widths of the filter that found it away; a furrow's w is this part of that width.
@@ -36,16 +38,17 @@ _SIDES, _WIDTH = 2.2, 1.2
 # Furrows that are shallower [m] or, end to end, shorter [m] than this are left out.
 _FAINT, _SHORT = 5e-5, 8e-3
 # A groove that brings the skin nearer by less than this part is left out.
-_WORTH = 0.004
+_WORTH = 0.002
 # Where sections are looked at, other grooves make at most this part of the depth; later on whatever they do.
 _CLEAR, _ANYWHERE = 0.12, np.inf
 # The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
 _PIECE = 0.014
 # Sweeps for single shapes, for cross sections, and again with grooves that were missed.
-_STEPS = (3, 4, 5)
-_SETTLED = 4e-3
+_STEPS = (3, 3, 4)
+# Steps end when all grooves together bring less than this part, and for one that brings less than this.
+_SETTLED, _STILL = 4e-3, 3e-4
 # The last are done again, at most so often, until a round brings less than this part.
-_ROUNDS, _SETTLED_ROUND = 6, 0.02
+_ROUNDS, _SETTLED_ROUND = 3, 0.012
 _LAST = 3
 # Where less than this part of a groove is there, it ends.
 _OUT = 0.06
@@ -105,12 +108,14 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     for k in range(_ROUNDS):
         start, end = (0.45 + 0.52 * part / _ROUNDS for part in (k, k + 1))
         progress("looking for what was missed", start)
-        missed = _first_grooves(fit.heights.without(fit.height))
+        missed = _first_grooves(fit.heights.without(fit.height), _SMALLER)
         # Now that others are nearly right, sections can be seen between them.
         known = [] if k == 0 else _trimmed(fit)
         tried = fit.replaced(
             [*known, *_with_sections(fit.replaced([*fit.grooves, *missed]), _ANYWHERE).grooves[len(known) :]]
         )
+        # Those that are new show what they are worth once they have taken their first steps.
+        tried.sweep(range(len(fit.grooves), len(tried.grooves)))
         tried = _pruned(tried)
         _steps(tried, _STEPS[2], progress, "moving and sizing them", start, end, rigid=True)
         fell = 1.0 - tried.cost / fit.cost
@@ -127,24 +132,31 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
 def _steps(
     fit: GrooveFit, most: int, progress: Progress, what: str, start: float, end: float, rigid: bool = False
 ) -> None:
+    moving = None
     for k in range(most):
         progress(what, start + (end - start) * k / most)
-        fell = fit.sweep()
+        fell = fit.sweep(moving)
         if rigid:
             fit.let_scan_move()
-        if fell < _SETTLED:
+        if fell.sum() < _SETTLED:
             break
+        # Those that lie well are left alone.
+        moving = np.flatnonzero(fell > _STILL)
 
 
-def _first_grooves(heights: ScanHeights) -> list[Groove]:
-    """A furrow for every valley of a scan, nearly where it runs, nearly as deep and wide."""
+def _first_grooves(heights: ScanHeights, part: float = 1.0) -> list[Groove]:
+    """A furrow for every valley of a scan, nearly where it runs, nearly as deep and wide.
+
+    part: of what it takes else, in depth and in length, for a valley to count.
+    """
     field = valley_field(heights)
-    least = max(_OVER_NOISE * heights.noise, _SHALLOWEST, _PART * float(field.depth.max(initial=0.0)))
-    grooves = [_first_groove(heights, line) for line in valley_lines(field, least)]
+    least = part * max(_OVER_NOISE * heights.noise, _SHALLOWEST, _PART * float(field.depth.max(initial=0.0)))
+    lines = valley_lines(field, least, part * _SHORT)
+    grooves = [_first_groove(heights, line, part * _SHORT) for line in lines]
     return [groove for groove in grooves if groove is not None]
 
 
-def _first_groove(heights: ScanHeights, line: ValleyLine) -> Groove | None:
+def _first_groove(heights: ScanHeights, line: ValleyLine, shortest: float) -> Groove | None:
     """A furrow along a valley, without the ends where it has run out."""
     texels = heights.texels
     places = ndimage.gaussian_filter1d(line.points, 1.2, axis=0, mode="nearest")
@@ -161,7 +173,7 @@ def _first_groove(heights: ScanHeights, line: ValleyLine) -> Groove | None:
         return None
     kept = slice(deep[0], deep[-1] + 1)
     length = np.linalg.norm(np.diff(places[kept], axis=0), axis=1).sum() * texels.metres
-    if length < _SHORT:
+    if length < shortest:
         return None
     chain = fit_stroke(places[kept] / texels.size, _TOLERANCE / texels.layout.texture_map.metres)
     return Groove(chain.controls, _WIDTH * line.width, max(float(np.median(depth[kept])), _FAINT))

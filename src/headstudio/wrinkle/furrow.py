@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from ..params import ParameterError, number, parameters_of, text
+from ..params import ParameterError, number, parameters_of, switch, text
 from .bezier import BezierChain
 from .cross_profile import Section
 
@@ -55,6 +55,11 @@ class Furrow:
         "The part of its length that a furrow takes to come to full depth at either end; never less than 4 widths.",
     )
 
+    adds: bool = switch(
+        False,
+        "Adds up",
+        "Where it crosses others, its depth is added to theirs; else the skin is as deep as the deeper one makes it.",
+    )
     section: Section = ()
     swell: tuple[float, ...] = ()
 

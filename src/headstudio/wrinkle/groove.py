@@ -23,11 +23,13 @@ from .swell import swell_shares, swelling
 # Limits of what a fitted furrow may be [m].
 _SHALLOWEST, _DEEPEST, _WIDTHS, _TAPERS = 1e-5, 0.014, (5e-4, 0.008), (0.02, 0.5)
 # Nowhere does a groove swell to more than this many times its depth.
-_FULLEST = 2.0
+_FULLEST = 4.0
 # In one step width, taper and swell change by at most this (a factor's logarithm), places and depths by so much [m].
 _LOG_STEP, _STEP = 0.4, 1.5e-3
 # A cross section is looked at in so many places to find its floor.
 _PLACES = 801
+# Distances in space are a little shorter than on the skin, and those to samples of a curve a little longer [m].
+_FARTHER, _BETWEEN = 1.05, 1e-3
 _TINY = np.finfo(float).tiny
 
 
@@ -104,13 +106,13 @@ class Groove:
         return replace(self, controls=chain.controls, swell=tuple(np.clip(swell, 0.0, _FULLEST).tolist()))
 
     def furrow(self, name: str, region: str = "") -> Furrow:
-        """As a furrow that is there at rest, with control points in texture space."""
+        """As a furrow that is there at rest and adds to others, with control points in texture space."""
         depth = min(max(self.floor, 1e-6), _DEEPEST)
         most = max(max(self.swell, default=1.0), _TINY)
         section = tuple(height * self.depth * most / depth for height in self.section)
         swell = tuple(part / most for part in self.swell)
         controls = tuple((float(x), float(y)) for x, y in self.controls)
-        return Furrow(name, region, depth, self.width, 1.0, controls, self.taper, section, swell)
+        return Furrow(name, region, depth, self.width, 1.0, controls, self.taper, True, section, swell)
 
 
 class MetricField:
@@ -151,7 +153,11 @@ class GrooveBed:
         samples, places = chain.sampled(SAMPLES)
         at_samples = metrics.at(places)
         # The nearest sample in space is close to the foot, which is then found on the curve.
-        _, first = cKDTree(laid.line_at(samples)).query(texels.positions[near])
+        away, first = cKDTree(laid.line_at(samples)).query(
+            texels.positions[near], distance_upper_bound=_FARTHER * reach + _BETWEEN
+        )
+        reached = np.isfinite(away)
+        near, first = near[reached], first[reached]
         mean = 0.5 * (texels.metrics[near] + at_samples[first])
         uv = laid.whole(texels.uv[near])
         found = slid_to_nearest(chain, uv, mean, samples[first])
@@ -248,10 +254,14 @@ class GrooveBed:
         more = np.clip(step[last:], -_LOG_STEP, _LOG_STEP)
         swell = tuple(float(np.clip(part + change, 0.0, _FULLEST)) for part, change in zip(groove.swell, more))
         if groove.section:
-            section = tuple(float(h + change / groove.depth) for h, change in zip(groove.section, heights))
-            return Groove(controls, groove.width, groove.depth, section, taper, swell)
+            # The swell says where there is more, the section how much: else the swell would come to its limit.
+            size = float(np.sqrt(np.mean(np.square(swell)))) if any(swell) else 1.0
+            swell = tuple(part / size for part in swell)
+            section = tuple(float(size * (h + change / groove.depth)) for h, change in zip(groove.section, heights))
+            return replace(groove, controls=controls, section=section, taper=taper, swell=swell)
         width = float(np.clip(factors[1] * groove.width, *_WIDTHS))
-        return Groove(controls, width, max(groove.depth + float(heights[1]), _SHALLOWEST), (), taper, swell)
+        depth = max(groove.depth + float(heights[1]), _SHALLOWEST)
+        return replace(groove, controls=controls, width=width, depth=depth, taper=taper, swell=swell)
 
 
 def faded(groove: Groove, arc: Floats, length: float) -> Floats:

@@ -8,7 +8,7 @@ each with a damping of its own, so that one that is hard to fit does not hold up
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +22,6 @@ from .scan_heights import ScanHeights
 
 # Distances below this count by their square [m]: the noise of a scan.
 _NOISE = 1e-4
-# Depths of grooves that share a place are joined as in blending.py.
-_POWER = 6.0
 _NOTHING = 1e-9
 _DAMPING, _EASED, _STIFFER, _TRIES = 1e-2, 0.3, 6.0, 4
 # The scale of the unknowns in the damping: logarithms, places [m], turns [rad].
@@ -35,44 +33,36 @@ _COVERED = 2e-3
 
 
 class _Placed:
-    """A groove on the skin. raised, power: what it adds above the skin [m], and to the joined depth, at its rows."""
+    """A groove on the skin. height: what it makes of it at its rows [m], (i,)."""
 
     def __init__(self, bed: GrooveBed) -> None:
         self.bed = bed
-        self.height, self._derivative = bed.heights()
-        self.raised: Floats = np.maximum(self.height, 0.0)
-        self.power: Floats = np.maximum(-self.height, 0.0) ** _POWER
-
-    def slopes(self, joined: Floats) -> Floats:
-        """Derivatives of the skin's height by the groove's unknowns, (i, unknowns). joined: the depth there [m], (i,)."""
-        # The joined depth is the larger but for rounding.
-        depth = -self.height
-        share = np.where(depth > 0, depth / np.maximum(np.maximum(joined, depth), 1e-12), 1.0)
-        slopes = share[:, None] ** (_POWER - 1) * self._derivative
-        # Far out everything is so small that arithmetic gets slow.
-        return np.where(np.abs(slopes) < _NOTHING, 0.0, slopes)
+        self.height, derivative = bed.heights()
+        # Far out everything is so small that arithmetic gets slow. By its unknowns, (i, unknowns).
+        self.slopes = np.where(np.abs(derivative) < _NOTHING, 0.0, derivative)
 
 
 class GrooveFit:
     """One scan, and grooves that approach it. motion: how the scan was moved towards them, (4, 4)."""
 
-    def __init__(self, heights: ScanHeights, grooves: Sequence[Groove]) -> None:
-        """heights: of the scan, with any smooth change of shape taken off."""
+    def __init__(self, heights: ScanHeights, grooves: Sequence[Groove], known: GrooveFit | None = None) -> None:
+        """heights: of the scan, with any smooth change of shape taken off. known: another fit to the same scan; grooves that
+        are in both are taken over as they lie there."""
         self.heights = heights
         self.texels = heights.texels
         self.motion = np.eye(4)
-        self._metrics = MetricField(self.texels)
+        self._metrics = MetricField(self.texels) if known is None else known._metrics
         self._rows: Ints = np.flatnonzero(heights.covered)
-        self._covered = cKDTree(self.texels.positions[self._rows])
+        self._covered = cKDTree(self.texels.positions[self._rows]) if known is None else known._covered
         self._upright = uprightness(heights)
         self._area = np.where(heights.covered, self.texels.area, 0.0)
         self._area /= self._area.sum()
-        self._placed = [_Placed(self._bed(groove)) for groove in grooves]
+        placed = {} if known is None else {placed.bed.groove: placed for placed in known._placed}
+        self._placed = [placed.get(groove) or _Placed(self._bed(groove)) for groove in grooves]
         self._damping = np.full(len(self._placed), _DAMPING)
-        self._raised, self._power = np.zeros((2, len(heights.height)))
-        for placed in self._placed:
-            self._raised[placed.bed.rows] += placed.raised
-            self._power[placed.bed.rows] += placed.power
+        self._height = np.zeros(len(heights.height))
+        for each in self._placed:
+            self._height[each.bed.rows] += each.height
 
     @property
     def beds(self) -> list[GrooveBed]:
@@ -86,8 +76,8 @@ class GrooveFit:
 
     @property
     def height(self) -> Floats:
-        """What the grooves make of the skin [m], (k,)."""
-        return self._raised - np.maximum(self._power, 0.0) ** (1 / _POWER)
+        """What the grooves make of the skin [m], (k,): their heights add up."""
+        return self._height
 
     @property
     def left(self) -> Floats:
@@ -99,25 +89,28 @@ class GrooveFit:
         """Mean distance to the scan over what it covers, noise counted in [m]."""
         return self._cost(self._rows, self.height[self._rows])
 
-    def sweep(self, steps: int = 2) -> float:
-        """Let every groove take some steps; the mean distance does not rise. Returns by which part it fell."""
-        before = self.cost
-        for k in range(len(self._placed)):
-            self._improve(k, steps)
-        return 1.0 - self.cost / before
+    def sweep(self, among: Iterable[int] | None = None, steps: int = 2) -> Floats:
+        """Let every groove, or those ``among`` them, take some steps; the mean distance does not rise.
+
+        Returns by which part it fell by each groove, (grooves,).
+        """
+        fell, before = np.zeros(len(self._placed)), self.cost
+        for k in range(len(self._placed)) if among is None else among:
+            fell[k] = self._improve(k, steps) / before
+        return fell
 
     def worth(self) -> Floats:
         """By which part the mean distance would rise without each groove, (grooves,)."""
         cost, rises = self.cost, []
         for placed in self._placed:
             rows = placed.bed.rows
-            without = self._height(self._raised[rows] - placed.raised, self._power[rows] - placed.power)
-            rises.append(self._cost(rows, without) - self._cost(rows, self.height[rows]))
+            height = self._height[rows]
+            rises.append(self._cost(rows, height - placed.height) - self._cost(rows, height))
         return np.array(rises) / cost
 
     def replaced(self, grooves: Sequence[Groove]) -> GrooveFit:
         """A fit of other grooves to the same scan where it is now."""
-        fit = GrooveFit(self.heights, grooves)
+        fit = GrooveFit(self.heights, grooves, self)
         fit.motion = self.motion
         return fit
 
@@ -140,18 +133,17 @@ class GrooveFit:
         step[:3, :3], step[:3, 3] = Rotation.from_rotvec(twist[3:]).as_matrix(), twist[:3]
         self.motion = step @ self.motion
 
-    def _improve(self, k: int, steps: int) -> None:
+    def _improve(self, k: int, steps: int) -> float:
+        """Let a groove take some steps. Returns by how much the mean distance fell [m]."""
         placed = self._placed[k]
-        self._raised[placed.bed.rows] -= placed.raised
-        self._power[placed.bed.rows] -= placed.power
+        self._height[placed.bed.rows] -= placed.height
         near = np.union1d(self._near(placed.bed.groove), placed.bed.rows)
-        cost = self._cost_with(placed, near)
+        cost = before = self._cost_with(placed, near)
         for _ in range(steps):
             bed = placed.bed
-            joined = np.maximum(self._power[bed.rows] + placed.power, 0.0) ** (1 / _POWER)
-            left = self.heights.height[bed.rows] - (self._raised[bed.rows] + placed.raised - joined)
+            left = self.heights.height[bed.rows] - self._height[bed.rows] - placed.height
             scales = bed.scales(_LOG, _PLACE)
-            normal, pull = _equations(placed.slopes(joined) * scales, left, self._weights(bed.rows, left))
+            normal, pull = _equations(placed.slopes * scales, left, self._weights(bed.rows, left))
             for _ in range(_TRIES):
                 moved = bed.moved(scales * _step(normal, pull, self._damping[k]))
                 tried = _Placed(GrooveBed(moved, self.texels, self._metrics, near))
@@ -163,20 +155,16 @@ class GrooveFit:
             else:
                 break
             placed, cost = tried, new_cost
-        self._raised[placed.bed.rows] += placed.raised
-        self._power[placed.bed.rows] += placed.power
+        self._height[placed.bed.rows] += placed.height
         self._placed[k] = placed
+        return before - cost
 
     def _cost_with(self, placed: _Placed, near: Ints) -> float:
-        raised, power = self._raised[near], self._power[near]
+        height = self._height[near]
         # The texels of a groove are some of those near it, in the same order.
         own = np.searchsorted(near, placed.bed.rows)
-        raised[own] += placed.raised
-        power[own] += placed.power
-        return self._cost(near, self._height(raised, power))
-
-    def _height(self, raised: Floats, power: Floats) -> Floats:
-        return raised - np.maximum(power, 0.0) ** (1 / _POWER)
+        height[own] += placed.height
+        return self._cost(near, height)
 
     def _cost(self, rows: Ints, height: Floats) -> float:
         left = (self.heights.height[rows] - height) * self._upright[rows]

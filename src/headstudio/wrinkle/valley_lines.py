@@ -21,8 +21,8 @@ _FOLLOW = 0.4
 # Beside a line nothing is found within so many of its widths at an angle this near, unless it is this much stronger: the
 # raised rims of a groove make shallow valleys along it.
 _CLEAR, _PARALLEL, _STRONGER = 3.2, 3, 0.45
-# No valley is shorter [m], and no face has more.
-_SHORTEST, _MOST = 8e-3, 60
+# No face has more.
+_MOST = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +38,9 @@ class ValleyLine:
     length: float
 
 
-def valley_lines(field: ValleyField, least: float) -> list[ValleyLine]:
-    """The valleys that stand out by at least ``least`` [m], the strongest first, each where no other runs."""
+def valley_lines(field: ValleyField, least: float, shortest: float = 8e-3) -> list[ValleyLine]:
+    """The valleys that stand out by at least ``least`` [m] and are no shorter than ``shortest`` [m], the strongest first,
+    each where no other runs."""
     free = field.depth.copy()
     order = np.argsort(-free, axis=None, kind="stable")
     order = order[free.ravel()[order] >= least]
@@ -58,7 +59,7 @@ def valley_lines(field: ValleyField, least: float) -> list[ValleyLine]:
         length = float(np.linalg.norm(np.diff(path[:, :2], axis=0), axis=1).sum() * field.metres)
         depth = float(np.median(answers))
         _clear(free, path, width / field.metres, depth)
-        if length >= _SHORTEST:
+        if length >= shortest:
             lines.append(
                 ValleyLine(np.asarray(path[:, :2] + field.origin + 0.5, dtype=np.float64), depth, width, length)
             )
