@@ -108,6 +108,21 @@ def test_furrows_that_cross_are_not_twice_as_deep(angle):
     assert height.max() < 0.4 * D
 
 
+@pytest.mark.parametrize("adds", [(True, True), (True, False)])
+def test_furrows_that_add_up_are_as_deep_as_both_where_they_cross(adds):
+    flat = sheet(24)
+    ends = [((0.3, 0.5), (0.7, 0.5)), ((0.5, 0.3), (0.5, 0.7))]
+    lines = [replace(line_between(*end, depth=D, width=W), adds=add) for end, add in zip(ends, adds)]
+    bed = prepare_bed(SkinLayout.of_map(flat_map(flat)), lines)
+    both = Creases(bed).displaced(flat.vertices).height
+    single = [
+        Creases(bed, [replace(line, depth=D * (k == n)) for n, line in enumerate(lines)]).displaced(flat.vertices)
+        for k in (0, 1)
+    ]
+    assert np.allclose(both, sum(one.height for one in single), atol=1e-12)
+    assert both.min() < -1.8 * D
+
+
 def test_furrows_far_apart_do_not_know_each_other():
     flat = sheet(24)
     layout = SkinLayout.of_map(flat_map(flat))

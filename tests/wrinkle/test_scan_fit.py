@@ -18,6 +18,7 @@ from headstudio.wrinkle.cross_profile import section_height
 from headstudio.wrinkle.cross_section import CrossSection, control_heights, half_width
 from headstudio.wrinkle.face_creases import face_bed
 from headstudio.wrinkle.fitting import FurrowFit, fit_grooves
+from headstudio.wrinkle.furrow_bed import prepare_bed
 from headstudio.wrinkle.groove import SAMPLES, Groove, GrooveBed, MetricField
 from headstudio.wrinkle.scan_fit import fit_face
 from headstudio.wrinkle.scan_heights import ScanHeights, SkinTexels
@@ -84,6 +85,19 @@ def test_a_fit_comes_near_a_scan_whose_grooves_have_another_profile(scan, fit):
     after = np.nanmean(np.abs(fit.left))
     assert after < 0.3e-3
     assert after < 0.3 * before
+
+
+def test_grooves_that_add_up_where_they_cross_are_met_there():
+    scan = wrinkled_sheet(6, [((0.02, 0.045), (0.08, 0.055)), ((0.05, 0.02), (0.052, 0.08))], 2.5e-3, 2.2e-3)
+    fit = fit_grooves(layout(), scan)
+    crossing = np.linalg.norm(fit.texels.positions[:, :2] - 0.05, axis=1) < 5e-3
+    height = ScanHeights.measured(fit.texels, scan).height
+    assert -height[crossing].min() > 4e-3
+    assert np.abs(fit.left[crossing]).mean() < 0.25e-3
+    # As furrows they make the same of the skin.
+    creases = Creases(prepare_bed(layout(), [groove.furrow("groove") for groove in fit.grooves]))
+    skin = creases.mesh(creases.displaced(layout().skin.vertices))
+    assert compare(skin, moved(scan, fit.motion)).distances().mean < 0.15e-3
 
 
 def test_fitted_furrows_lie_along_the_grooves_and_are_there_at_rest(fit):

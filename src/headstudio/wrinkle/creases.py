@@ -82,8 +82,8 @@ class Creases:
         summed = (height, *((1.0 + raised) * gradient[:, k] for k in (0, 1)))
         self._sums = sparse.csr_array(sparse.vstack([self._summing(values) for values in summed]))
         self._sums_of_squares = self._summing(raised_more * height)
-        adding = np.array([furrow.adds for furrow in furrows])[bed.furrow]
-        self._blending = Blending(self._row, np.where(adding, 0.0, height))
+        adds = np.array([furrow.adds for furrow in furrows], dtype=bool)[bed.furrow]
+        self._blending = Blending(self._row, height, adds)
         self._folds = Folds(bed, self._surface, height) if self_contact else None
         self._gauge, self._spread = _gauge_beside(bed, measure)
 

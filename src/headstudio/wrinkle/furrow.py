@@ -58,7 +58,8 @@ class Furrow:
     adds: bool = switch(
         False,
         "Adds up",
-        "Where it crosses others, its depth is added to theirs; else the skin is as deep as the deeper one makes it.",
+        "Where it crosses others its depth is added to theirs, as in a scan; else the skin is as deep as the deeper one.",
+        live=True,
     )
     section: Section = ()
     swell: tuple[float, ...] = ()

@@ -112,7 +112,9 @@ class Groove:
         section = tuple(height * self.depth * most / depth for height in self.section)
         swell = tuple(part / most for part in self.swell)
         controls = tuple((float(x), float(y)) for x, y in self.controls)
-        return Furrow(name, region, depth, self.width, 1.0, controls, self.taper, True, section, swell)
+        return Furrow(
+            name, region, depth, self.width, 1.0, controls, self.taper, adds=True, section=section, swell=swell
+        )
 
 
 class MetricField:

@@ -51,16 +51,16 @@ class GrooveFit:
         self.heights = heights
         self.texels = heights.texels
         self.motion = np.eye(4)
-        self._metrics = MetricField(self.texels) if known is None else known._metrics
+        self._metrics: MetricField = MetricField(self.texels) if known is None else known._metrics
         self._rows: Ints = np.flatnonzero(heights.covered)
-        self._covered = cKDTree(self.texels.positions[self._rows]) if known is None else known._covered
+        self._covered: cKDTree = cKDTree(self.texels.positions[self._rows]) if known is None else known._covered
         self._upright = uprightness(heights)
         self._area = np.where(heights.covered, self.texels.area, 0.0)
         self._area /= self._area.sum()
         placed = {} if known is None else {placed.bed.groove: placed for placed in known._placed}
-        self._placed = [placed.get(groove) or _Placed(self._bed(groove)) for groove in grooves]
+        self._placed: list[_Placed] = [placed.get(groove) or _Placed(self._bed(groove)) for groove in grooves]
         self._damping = np.full(len(self._placed), _DAMPING)
-        self._height = np.zeros(len(heights.height))
+        self._height: Floats = np.zeros(len(heights.height))
         for each in self._placed:
             self._height[each.bed.rows] += each.height
 
