@@ -124,3 +124,30 @@ def test_a_level_is_made_once_and_seen_by_nobody(
     np.testing.assert_array_equal(picture(far), first)
     monkeypatch.setattr(DetailedFaces, "level_for", lambda *_: -1)
     assert np.abs(picture(far) - first).mean() < 0.5
+
+
+def test_no_triangles_are_much_smaller_than_their_clusters() -> None:
+    """Cubes that the surface only grazes would be clusters of their own: slivers between those of their neighbours."""
+    mesh = ball(7)
+    pixel = 0.002
+    faces = coarser(surface_of(mesh), pixel)
+    a, b, c = (mesh.vertices[faces[:, k]] for k in range(3))
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    assert area.min() > 0.2 * np.median(area)
+    edges = np.linalg.norm(b - a, axis=1)
+    assert edges.min() > 0.4 * np.median(edges)
+
+
+def test_of_pairs_that_are_too_close_one_stays_and_no_other_has_to_go() -> None:
+    rng = np.random.default_rng(4)
+    seeds, first, second = np.arange(0, 300, 2), *(2 * rng.integers(0, 150, (2, 400)))
+    first, second = first[first != second], second[first != second]
+    rank = rng.permutation(300)
+    rank[[10, 20]] = -1
+    stays = detail._apart(seeds, first, second, rank)
+    both = np.isin(first, stays) & np.isin(second, stays)
+    assert (rank[first[both]] == rank[second[both]]).all()  # both must stay
+    assert {10, 20} <= set(stays.tolist()) <= set(seeds.tolist())
+    gone = np.setdiff1d(seeds, stays)
+    near_one = np.union1d(first[np.isin(second, stays)], second[np.isin(first, stays)])
+    assert np.isin(gone, near_one).all()

@@ -23,6 +23,8 @@ _LEAST, _MOST = 1.3, 7.0
 _ASTRAY = 0.25
 # what is painted may change by this much,
 _PAINT_STEP = 0.3
+# Seeds of clusters that are nearer to each other than this part of a cluster are one too many.
+_APART = 0.6
 # and so many edges may go into one.
 _EDGES = 4.0
 # Shorter edges [m] say nothing about how the surface bends.
@@ -70,25 +72,34 @@ def coarser(surface: Surface, pixel: float) -> Ints:
     start, end = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
     along = surface.points[end] - surface.points[start]
     length = np.sqrt(np.einsum("ij,ij->i", along, along)) + _SHORT
-    size = _sizes(surface, start, end, length, pixel)
+    edge = _mean(length, start, len(surface.points))
+    size = _sizes(surface, start, end, length, edge, pixel)
     # All of a border stays: an edge of the surface shows every corner that is cut off it.
-    seeds = np.union1d(_seeds(surface.points, start, end, size), igl.boundary_facets(surface.faces)[0])
+    border = np.unique(igl.boundary_facets(surface.faces)[0])
+    seeds = np.union1d(_seeds(surface.points, start, end, size), border)
     # Every vertex goes to the seed that is nearest along edges, as measured in clusters.
     count = len(size)
-    steps = sparse.csr_array((2 * length / (size[start] + size[end]), (start, end)), shape=(count, count))
+    step = 2 * length / (size[start] + size[end])
+    steps = sparse.csr_array((step, (start, end)), shape=(count, count))
+    away, _, nearest = dijkstra(steps, indices=seeds, min_only=True, return_predecessors=True)
+    # A cube that the surface only grazes has a seed beside that of its neighbour. Of the two, what lies where triangles are
+    # smallest stays: on the floor of a furrow.
+    close = (away[start] + step + away[end] < _APART) & (nearest[start] != nearest[end])
+    rank = np.empty(count, np.int64)
+    rank[np.argsort(edge, kind="stable")] = np.arange(count)
+    rank[border] = -1
+    seeds = _apart(seeds, nearest[start[close]], nearest[end[close]], rank)
     _, _, nearest = dijkstra(steps, indices=seeds, min_only=True, return_predecessors=True)
     corners = np.where(nearest < 0, np.arange(count), nearest)[surface.faces]
     return _once(corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)], count)
 
 
-def _sizes(surface: Surface, start: Ints, end: Ints, length: Floats, pixel: float) -> Floats:
-    """How wide the cluster of every vertex may be [m], (n,), in steps."""
+def _sizes(surface: Surface, start: Ints, end: Ints, length: Floats, edge: Floats, pixel: float) -> Floats:
+    """How wide the cluster of every vertex may be [m], (n,), in steps. length: of edges, edge: their mean at each vertex."""
     turn = surface.normals[end] - surface.normals[start]
     change = np.abs(surface.painted[end] - surface.painted[start]).max(axis=1, initial=0.0)
     bend = _most(np.sqrt(np.einsum("ij,ij->i", turn, turn)) / length, start, end, len(surface.points))
     paint = _most(change / length, start, end, len(surface.points))
-    degree = np.maximum(np.bincount(start, minlength=len(surface.points)), 1)
-    edge = np.bincount(start, length, minlength=len(surface.points)) / degree
     with np.errstate(divide="ignore"):
         # A chord s of a circle of curvature k leaves it by k s^2 / 8.
         wanted = np.minimum(np.sqrt(8 * _ASTRAY * pixel / bend), _PAINT_STEP / paint)
@@ -103,6 +114,31 @@ def _most(values: Floats, start: Ints, end: Ints, count: int) -> Floats:
     np.maximum.at(most, start, values)
     np.maximum.at(most, end, values)
     return most
+
+
+def _mean(values: Floats, start: Ints, count: int) -> Floats:
+    """The mean of the values at the edges that leave each vertex, (count,); 0 where none does."""
+    mean: Floats = np.bincount(start, values, minlength=count) / np.maximum(np.bincount(start, minlength=count), 1)
+    return mean
+
+
+def _apart(seeds: Ints, first: Ints, second: Ints, rank: Ints) -> Ints:
+    """Of the seeds as many as can stay with no two that are ``first`` and ``second`` of a pair, but those of rank -1, which
+    all do. rank: of every vertex, (n,); of two the lower stays. Each round those stay that are the lowest around (Luby)."""
+    ends = np.concatenate([first, second]), np.concatenate([second, first])
+    stays = rank == -1
+    fresh, open_ = stays, np.isin(np.arange(len(rank)), seeds)
+    while True:
+        open_[fresh] = False
+        open_[ends[1][fresh[ends[0]]]] = False
+        if not open_.any():
+            break
+        here, other = (each[open_[ends[0]] & open_[ends[1]]] for each in ends)
+        lowest = np.full(len(rank), len(rank))
+        np.minimum.at(lowest, here, rank[other])
+        fresh = open_ & (rank < lowest)
+        stays = stays | fresh
+    return np.flatnonzero(stays)
 
 
 def _seeds(points: Floats, start: Ints, end: Ints, size: Floats) -> Ints:
