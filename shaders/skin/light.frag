@@ -1,7 +1,7 @@
 #version 330
 // The light that living skin sends to the eye, at every pixel where it is seen. To be defined:
 // LAFORTUNE for his model, or 0 for the simple one; SHOWS_VALUE where a value is shown on the skin;
-// KEPT_APART where light that has entered the skin is spread in the picture.
+// KEPT_APART where light that has entered the skin is spread in the picture; BUMPY where it may have fine wrinkles.
 #include "common/scene.glsl"
 #include "common/shadow.glsl"
 #include "common/highlight.glsl"
@@ -48,7 +48,8 @@ void main() {
     vec3 smooth_n = normalize(surface.xyz);
     vec3 l = to_light.xyz;
 
-    Relief bumps = relief_at(pixel, place, smooth_n);
+    Relief bumps = Relief(smooth_n, 1.0, 0.0, texelFetch(states, pixel, 0).w);
+    if (BUMPY == 1) bumps = relief_at(pixel, place, smooth_n);
     vec3 n = bumps.normal;
 
     float lips = painted.y, hair = painted.z;

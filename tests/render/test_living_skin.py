@@ -15,6 +15,7 @@ from headstudio.head.mesh import TriangleMesh
 from headstudio.params import assign
 from headstudio.render.detail import neighbours_together
 from headstudio.render.fine_relief import FineRelief
+from headstudio.render.picture_area import Outline
 from headstudio.render.renderer import Renderer
 from headstudio.render.skin_shape import curvature_of, faded_in, hidden_in_creases, hidden_in_mouth
 from headstudio.render.skin_values import scale_colours, shown_values
@@ -254,3 +255,24 @@ def test_a_mouth_darkens_with_depth_and_lips_keep_their_light() -> None:
     assert hidden[0] == 0.0
     assert (np.diff(hidden) >= 0).all()
     assert 0.9 < hidden[-1] < 1.0
+
+
+def test_skin_beyond_the_map_of_fine_wrinkles_needs_no_bumps(
+    gl: moderngl.Context, smiling: LivingSkin, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is lit without them, which takes a third less; the picture is the same."""
+    views = [CLOSE, Camera(azimuth=0.6, distance=0.9), Camera(azimuth=3.0, distance=0.7)]
+    stage = Stage(smiling.surface.head, skin=smiling)
+
+    def pictures() -> list[Pixels]:
+        renderer = Renderer(gl)
+        shown = []
+        for view in views:
+            renderer.render(stage, RAKING, view, SIZE)
+            shown.append(renderer.read_pixels().astype(int))
+        return shown
+
+    apart = pictures()
+    monkeypatch.setattr(Outline, "area", lambda *_: (0, 0, *SIZE))
+    for mine, whole in zip(apart, pictures(), strict=True):
+        assert np.abs(mine - whole).max() <= 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
+from ..head.frame import HeadFrame
 from ..head.head import Head
 from ..head.mesh import Floats
 from ..scene.settings import Look
@@ -19,7 +20,7 @@ from .openings import Openings
 from .scene_block import linear
 from .screen import ScreenPasses
 from .skin_paint import paint
-from .targets import PictureTargets
+from .targets import PictureTargets, Size
 from .view import View
 
 
@@ -81,10 +82,10 @@ class Body:
             self._cover.write(bytes_of(ground_cover(self.head, growth)))
         self._growth = growth
 
-    def look_from(self, view: View, shift: Floats, height: int) -> None:
-        """Be as detailed as the next picture needs, ``height`` pixels high, of the head moved by ``shift`` [m], (3,)."""
-        self._level = self._faces.level_for(view, shift, height)
-        self._parts.look_from(view, shift, height)
+    def look_from(self, view: View, frame: HeadFrame, size: Size) -> None:
+        """Be as detailed as the next picture needs, of so many pixels (width, height), of the head at ``frame``."""
+        self._level = self._faces.level_for(view, frame.translation, size[1])
+        self._parts.look_from(view, frame.translation, size[1])
 
     def draw_depth(self, light: View) -> None:
         """The body into the shadow map of ``light``."""

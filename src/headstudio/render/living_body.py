@@ -5,6 +5,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
+from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from ..scene.settings import Look
 from ..wrinkle.living_skin import LivingSkin, SkinSurface
@@ -12,6 +13,7 @@ from .body_parts import BodyParts, hidden_of_head
 from .hair_ground import Growth, ground_cover, same_ground
 from .skin_body import SkinBody, SkinPrograms
 from .skin_shape import MOST_HIDDEN, HeadShape, head_shape, pose_of, shape_of, smooth_pose_of
+from .targets import Size
 from .view import View
 
 
@@ -49,10 +51,10 @@ class LivingBody(SkinBody):
             self.cover(self.surface.spread(ground_cover(self.head, growth)))
         self.growth = growth
 
-    def look_from(self, view: View, shift: Floats, height: int) -> None:
-        """Be as detailed as the next picture needs, ``height`` pixels high, of the head moved by ``shift`` [m], (3,)."""
-        super().look_from(view, shift, height)
-        self._parts.look_from(view, shift, height)
+    def look_from(self, view: View, frame: HeadFrame, size: Size) -> None:
+        """Be as detailed as the next picture needs, of so many pixels (width, height), of the head at ``frame``."""
+        super().look_from(view, frame, size)
+        self._parts.look_from(view, frame.translation, size[1])
 
     def pose(self, skin: LivingSkin, look: Look) -> None:
         """Take the pose of ``skin``, of this body's surface; sent again only for another object or other figures shown."""

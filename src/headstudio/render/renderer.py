@@ -107,7 +107,7 @@ class Renderer:
             low, high = limb.positions.min(axis=0), limb.positions.max(axis=0)
             light = light_view(look, (low + high) / 2, float(np.linalg.norm(high - low)) / 2)
             view, maps = camera_view(camera, targets.size[0] / targets.size[1]), self._maps_for(look.shadow_size)
-            self._limb.look_from(view, np.zeros(3), targets.scene.height)
+            self._limb.look_from(view, HeadFrame(), targets.scene.size)
             self._scene_block.write(scene_block(view, light, HeadFrame(), look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
             self._cast_shadows(self._limb, None, light, look, maps)
@@ -168,7 +168,7 @@ class Renderer:
         with timer.stage("upload"):
             body, hair = self._pull(stage, look)
             view = camera_view(camera, targets.size[0] / targets.size[1])
-            body.look_from(view, stage.frame.translation, targets.scene.height)
+            body.look_from(view, stage.frame, targets.scene.size)
             strands = self._strands.pull(stage, look, view, targets.scene.height, final=self._final is not None)
             worn = self._pull_adornments(stage, look)
             maps = self._maps_for(look.shadow_size)

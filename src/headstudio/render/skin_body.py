@@ -8,6 +8,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
+from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..scene.settings import Look
 from ..scene.skin_settings import SkinSettings
@@ -19,12 +20,13 @@ from .detailed_faces import DetailedFaces
 from .fine_relief import FineRelief
 from .hair_ground import Growth, ground_colour
 from .openings import Openings
+from .picture_area import Area, Outline, around
 from .scattering import STEEPEST, scattering_table, scattering_taps
 from .screen import ScreenPasses
 from .skin_colour import HAEMOGLOBIN, skin_colour
 from .skin_shape import BLOOD_MEAN, SkinPose, SkinShape, order_of_use
 from .skin_values import scale_colours
-from .targets import PictureTargets
+from .targets import PictureTargets, Size
 from .view import View
 
 
@@ -93,6 +95,9 @@ class SkinBody:
         self._cover = context.buffer(bytes_of(np.zeros(len(order))))
         self._faces = DetailedFaces(context, surface, place)
         self._level = -1
+        # Nothing is bumpy beyond the map of the fine wrinkles: two thirds of a bust.
+        self._outline = Outline(surface.points, shape.turning, shape.mapped > 0)
+        self._bumpy: Area = (0, 0, 0, 0)
         self._posed = self._array()
         self._smooth: _PosedSkin | None = None
         posed = [
@@ -111,6 +116,7 @@ class SkinBody:
     def take(self, pose: SkinPose) -> None:
         """Show this pose from now on."""
         self._posed.write(pose)
+        self._outline.pose(pose.positions)
 
     def take_smooth(self, pose: SkinPose) -> None:
         """Show this pose left of ``look.split``."""
@@ -118,9 +124,10 @@ class SkinBody:
             self._smooth = self._array()
         self._smooth.write(pose)
 
-    def look_from(self, view: View, shift: Floats, height: int) -> None:
-        """Be as detailed as the next picture needs, ``height`` pixels high, of the body moved by ``shift`` [m], (3,)."""
-        self._level = self._faces.level_for(view, shift, height)
+    def look_from(self, view: View, frame: HeadFrame, size: Size) -> None:
+        """Be as detailed as the next picture needs, of so many pixels (width, height), of the body at ``frame``."""
+        self._level = self._faces.level_for(view, frame.translation, size[1])
+        self._bumpy = self._outline.area(view, frame, size)
 
     def draw_depth(self, light: View) -> None:
         """The body into the shadow map of ``light``."""
@@ -182,11 +189,10 @@ class SkinBody:
         self.context.depth_func = ">"
         lit = targets.scattering.lit if apart else targets.scene
         with self.context.scope(lit, moderngl.DEPTH_TEST):
-            light = programs.light(
-                LAFORTUNE=int(skin.model == "lafortune"), SHOWS_VALUE=int(shows_value), KEPT_APART=int(apart)
-            )
-            light.draw(
-                "light", shadow_map=0, light_map=1, normals=3, paint=4, distances=5, places_in_map=6, states=7, slopes=8,
+            self._draw_light(
+                lit,
+                {"LAFORTUNE": int(skin.model == "lafortune"), "SHOWS_VALUE": int(shows_value), "KEPT_APART": int(apart)},
+                shadow_map=0, light_map=1, normals=3, paint=4, distances=5, places_in_map=6, states=7, slopes=8,
                 pores=9, heights=10, scattered=11, scale=12, size=(float(width), float(height)),
                 forward=tuple(view.forward), upward=tuple(view.up / view.focal),
                 sideward=tuple(view.right * width / height / view.focal),
@@ -201,6 +207,14 @@ class SkinBody:
         if apart:
             self._scatter(view, skin, targets)
         self.context.depth_func = "<"
+
+    def _draw_light(self, target: moderngl.Framebuffer, choices: dict[str, int], **uniforms: object) -> None:
+        """Light the skin that is in ``target``, in use; that with bumps and that without by shaders of their own."""
+        for bumpy, areas in ((1, [self._bumpy]), (0, around(self._bumpy, target.size))):
+            for k, area in enumerate(areas):
+                target.scissor = area
+                self.programs.light(BUMPY=bumpy, **choices).draw("light", **({} if k else uniforms))
+        target.scissor = (0, 0, *target.size)
 
     def _scatter(self, view: View, skin: SkinSettings, targets: PictureTargets) -> None:
         """Spread the light that has entered the skin, along rows and then along columns, and add it to the picture."""
@@ -267,8 +281,9 @@ class _PosedSkin:
     def write(self, pose: SkinPose) -> None:
         """Send a pose."""
         rows = self._rows
-        rows[:, :3], rows[:, 3:6], rows[:, 6:8] = pose.positions, pose.normals, pose.amplitudes
-        rows[:, 8], rows[:, 9] = pose.hidden, pose.value
+        columns = (*pose.positions.T, *pose.normals.T, *pose.amplitudes.T, pose.hidden, pose.value)
+        for k, column in enumerate(columns):
+            rows[:, k] = column
         self.vertices.write(rows.take(self._order, axis=0, out=self._ordered, mode="clip"))
 
 

@@ -23,7 +23,7 @@ from .self_contact import Folds
 from .shape import amplitude
 from .shrinkage import Measure, ShrinkageGauge, shrinkage_gauge
 from .smooth_surface import SmoothSurface
-from .vectors import unit
+from .vectors import scaled, unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,11 +101,11 @@ class Creases:
         height, *slopes = (self._sums @ share).reshape(3, -1)
         height += self._sums_of_squares @ (share * grown)
         # Like other directions, slopes need no more than single precision.
-        by_u, by_v = (slope.astype(np.float32)[:, None] for slope in slopes)
+        by_u, by_v = (slope.astype(np.float32) for slope in slopes)
         if self._folds is not None:
             height = self._folds.clamped(height, posed, surface)
-        positions = surface.positions + height[:, None] * surface.normals
-        normals = unit(surface.normals - by_u * surface.by_u - by_v * surface.by_v)
+        positions = surface.positions + scaled(surface.normals, height)
+        normals = unit(surface.normals - scaled(surface.by_u, by_u) - scaled(surface.by_v, by_v))
         return WrinkledSkin(
             self._whole(posed, positions),
             self._whole(surface.coarse_normals, normals),
@@ -130,9 +130,9 @@ class Creases:
         vertices, count = self._surface.vertices, len(coarse)
         # All vertices that the coarse skin does not have are fine ones, and the last of them.
         replaced = len(vertices) - (len(self.bed.refined.home) - count)
-        kept = coarse.copy()
-        kept[vertices[:replaced]] = fine[:replaced]
-        return np.concatenate([kept, fine[replaced:]])
+        whole = np.concatenate([coarse, fine[replaced:]])
+        whole[vertices[:replaced]] = fine[:replaced]
+        return whole
 
 
 def _sections(bed: FurrowBed, depths: Floats) -> tuple[Floats, Floats]:

@@ -14,6 +14,8 @@ from scipy.ndimage import gaussian_filter1d
 from ..head.head import Landmarks, Part
 from ..head.locate import locator
 from ..head.mesh import Floats, Ints, TriangleMesh
+from ..head.rows import row_dot
+from .vectors import scaled, unit
 
 # Lids turn as one up to this distance, and what is farther than the second rests.
 _THICK = (1.3, 2.0)
@@ -74,19 +76,20 @@ class Lids:
 
     def turned(self, points: Floats, turn: Floats) -> Floats:
         """Points, (k, 3), turned down about the middle of the eye by ``turn`` [rad], (k,)."""
-        away = points - self.centre
-        height, ahead = away @ self.up, away @ self.forward
-        sine, cosine = np.sin(turn), np.cos(turn)
-        change_up = (cosine - 1.0) * height - sine * ahead
-        change_ahead = (cosine - 1.0) * ahead + sine * height
-        return points + change_up[:, None] * self.up + change_ahead[:, None] * self.forward
+        axes = np.stack([self.up, self.forward])
+        height, ahead = axes @ (points - self.centre).T
+        sine, less = np.sin(turn), np.cos(turn) - 1.0
+        change = np.stack([less * height - sine * ahead, less * ahead + sine * height], axis=1)
+        turned: Floats = points + change @ axes
+        return turned
 
     def cleared(self, points: Floats) -> Floats:
         """Points, (k, 3), pushed straight out of the ball where they have come too near."""
         away = points - self.centre
-        distance = np.linalg.norm(away, axis=1)
-        scale = np.maximum(self.clearance / np.maximum(distance, 1e-9), 1.0)
-        return self.centre + scale[:, None] * away
+        near = np.flatnonzero(row_dot(away, away) < self.clearance**2)
+        cleared = points.copy()
+        cleared[near] = self.centre + scaled(unit(away[near]), self.clearance[near])
+        return cleared
 
 
 def turned_down(fall: Floats, rise: Floats, upper: float, lower: float) -> Floats:

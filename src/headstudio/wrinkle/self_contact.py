@@ -23,6 +23,7 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.repair import edge_neighbours
+from ..head.rows import row_dot
 from .furrow_bed import FurrowBed
 from .smooth_surface import PosedSurface, SmoothSurface, cross, unit
 
@@ -121,8 +122,8 @@ class _Facets:
         near = found["v"] < reach[mine] + others.size[other]
         mine, other = mine[near], other[near]
         n, m = self.normal[mine], others.normal[other]
-        gap = np.einsum("ij,ij->i", self.middle[mine] - others.middle[other], m)
-        fits = (np.einsum("ij,ij->i", n, m) < _TURNED) & (gap > -self.size[mine])
+        gap = row_dot(self.middle[mine] - others.middle[other], m)
+        fits = (row_dot(n, m) < _TURNED) & (gap > -self.size[mine])
         return mine[fits], other[fits]
 
     def radii(self, which: Ints, p: Floats, n: Floats) -> Floats:
@@ -131,13 +132,13 @@ class _Facets:
         It rests on the plane of the triangle where it touches that within its size; and it never holds its middle.
         """
         away, m = p - self.middle[which], self.normal[which]
-        toward = -np.einsum("ij,ij->i", away, n)
-        turn = 1.0 - np.einsum("ij,ij->i", n, m)
-        gap = np.einsum("ij,ij->i", away, m)
+        toward = -row_dot(away, n)
+        turn = 1.0 - row_dot(n, m)
+        gap = row_dot(away, m)
         plane = gap / np.maximum(turn, 1e-9)
         touch = away + plane[:, None] * (n - m)
-        near = np.einsum("ij,ij->i", touch, touch) < self.size[which] ** 2
-        point = np.einsum("ij,ij->i", away, away) / np.maximum(2.0 * toward, 1e-12)
+        near = row_dot(touch, touch) < self.size[which] ** 2
+        point = row_dot(away, away) / np.maximum(2.0 * toward, 1e-12)
         radius = np.minimum(np.where(near, plane, np.inf), np.where(toward > 0, point, np.inf))
         return np.where((turn > 1.0 - _FACING) & (gap > 0), radius, np.inf)
 
@@ -171,9 +172,9 @@ class _Creases:
         middle = corners.mean(axis=1)
         one, other = place[self._pairs[chosen]].T
         step, n, m = middle[other] - middle[one], normal[one], normal[other]
-        cosine = np.clip(np.einsum("ij,ij->i", n, m), -1.0, 1.0)
-        length = np.sqrt(np.einsum("ij,ij->i", step, step))
-        hit = (np.einsum("ij,ij->i", step, n - m) > 0) & (length < _SHARP * top[chosen] * np.arccos(cosine))
+        cosine = np.clip(row_dot(n, m), -1.0, 1.0)
+        length = np.sqrt(row_dot(step, step))
+        hit = (row_dot(step, n - m) > 0) & (length < _SHARP * top[chosen] * np.arccos(cosine))
         if not hit.any():
             return close
         # And all around their corners.
@@ -213,13 +214,13 @@ class _Patches:
         middle, normal, top = pairs.mean @ posed, unit(pairs.mean @ normals), height[pairs.patch]
         first, second = (ends[top[pairs.first] > _LOW] for ends in (pairs.first, pairs.second))
         step, n, m, top = middle[first] - middle[second], normal[first], normal[second], top[first]
-        turn = 1.0 - np.einsum("ij,ij->i", n, m)
-        gap = np.einsum("ij,ij->i", step, m)
+        turn = 1.0 - row_dot(n, m)
+        gap = row_dot(step, m)
         # A sixth of a patch is how far skin of a patch may be from the plane of its middle where it bends.
         slack = 0.15 * _PATCH
         hit = (turn > 1.0 - _OPPOSED) & (gap > -slack) & (gap < turn * top + 2.0 * slack)
-        hit &= np.einsum("ij,ij->i", step, n) < slack
-        hit &= np.einsum("ij,ij->i", step, step) < (1.7 * _PATCH + 2.0 * top) ** 2
+        hit &= row_dot(step, n) < slack
+        hit &= row_dot(step, step) < (1.7 * _PATCH + 2.0 * top) ** 2
         if hit.any():
             of_patch = np.zeros(self._count, dtype=bool)
             of_patch[pairs.patch[first[hit]]] = of_patch[pairs.patch[second[hit]]] = True
@@ -275,4 +276,4 @@ class _Pairs:
         if (height > self.room).any():
             return False
         moved = posed - self.posed
-        return bool(np.einsum("ij,ij->i", moved, moved).max() < (0.5 * _SLACK) ** 2)
+        return bool(row_dot(moved, moved).max() < (0.5 * _SLACK) ** 2)

@@ -49,16 +49,14 @@ def amplitude(shrinkage: Floats, initial: Floats | float) -> Floats:
     shrinkage, which lowers M by at most 0.005. M(0) = 0 and M(s < 0) = 0 stay.
     """
     s, r = np.broadcast_arrays(np.asarray(shrinkage, dtype=np.float64), np.asarray(initial, dtype=np.float64))
+    grown = np.asarray((1.0 - r) * s + r)
+    stretched = np.nonzero((s < 0) & (r > 0))
+    kept = r[stretched]
+    grown[stretched] = kept * np.exp(s[stretched] * (1.0 / kept - 1.0))
     # Where r is 0: a parabola up to the corner, and then the line that it runs into.
-    low = np.clip(s, 0.0, _CORNER)
-    rounded = low * (s - 0.5 * low) / _CORNER
-    some = r > 0
-    if not some.any():
-        return np.asarray(rounded)
-    grown = np.where(some, (1.0 - r) * s + r, rounded)
-    stretched = some & (s < 0)
-    r = r[stretched]
-    grown[stretched] = r * np.exp(s[stretched] * (1.0 / r - 1.0))
+    none = np.nonzero(r == 0)
+    low = np.clip(s[none], 0.0, _CORNER)
+    grown[none] = low * (s[none] - 0.5 * low) / _CORNER
     return grown
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_length
 from .texture_map import TextureMap
 
 Measure = Literal["three edges", "two edges"]
@@ -58,7 +59,7 @@ class ShrinkageGauge:
             kept = 1.0 / (share / np.maximum(scale[0], tiny) + (1 - share) / np.maximum(scale[1], tiny))
         else:
             way = self.way @ posed
-            kept = np.sqrt(np.einsum("ij,ij->i", way, way)).reshape(self.lengths.shape) / self.lengths
+            kept = row_length(way).reshape(self.lengths.shape) / self.lengths
         return np.where(self.found, 1.0 - 0.5 * (kept[0] + kept[1]), 0.0)
 
 

@@ -13,9 +13,10 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints, TriangleMesh
+from ..head.rows import row_dot
 from .refined_mesh import RefinedMesh
 from .skin_layout import SkinLayout
-from .vectors import AreaVectors, cross, unit
+from .vectors import AreaVectors, cross, scaled, unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,13 +62,13 @@ class SmoothSurface:
         n = coarse_normals[self._used]
         tangent_u, tangent_v = (self._gradients @ posed.astype(np.float32)).reshape(2, -1, 3)
         across_u, across_v = cross(tangent_v, n), cross(n, tangent_u)
-        area = np.einsum("ij,ij->i", tangent_u, across_u)
+        area = row_dot(tangent_u, across_u)
         # Where nothing is mapped, or a pose has crushed the skin flat, a height has no slope.
-        share = np.divide(1.0, area, out=np.zeros_like(area), where=np.abs(area) > 1e-12)[:, None]
-        directions = np.concatenate([n, share * across_u, share * across_v], axis=1)
+        share = np.divide(1.0, area, out=np.zeros_like(area), where=np.abs(area) > 1e-12)
+        directions = np.concatenate([n, scaled(across_u, share), scaled(across_v, share)], axis=1)
         blended = self._blend_directions @ directions
         normals = unit(blended[:, :3])
-        positions = self._blend_used @ posed[self._used] + self._lift[:, None] * normals
+        positions = self._blend_used @ posed[self._used] + scaled(normals, self._lift)
         return PosedSurface(coarse_normals, positions, normals, blended[:, 3:6], blended[:, 6:])
 
     def _lift_at_rest(self, refined: RefinedMesh, skin: TriangleMesh) -> Floats:

@@ -7,7 +7,7 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
-from .vectors import AreaVectors, unit
+from .vectors import AreaVectors, scaled, unit
 
 SPREAD = 0.010
 """How far tissue that is pressed together gives way to the sides [m]: about as far as it is thick."""
@@ -57,7 +57,7 @@ class TissueLift:
             gain = to_vertices @ (to_nodes @ gain)
         normals = unit(self._around @ np.ascontiguousarray(areas.T))
         lifted = positions.copy()
-        lifted[self.vertices] += (thickness[self.vertices] * gain)[:, None] * normals
+        lifted[self.vertices] += scaled(normals, thickness[self.vertices] * gain)
         return lifted
 
     def _mean_ratio(self, areas: Floats) -> Floats:
