@@ -7,7 +7,6 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.head import Head
-from ..head.mesh import Floats
 from ..scene.settings import Look
 from ..scene.skin_settings import SkinSettings
 from .body_parts import BodyParts, hidden_of_head

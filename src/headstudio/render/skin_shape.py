@@ -143,7 +143,9 @@ def limb_shape_of(skin: LimbSkin, hidden: Floats) -> SkinShape:
 
 def pose_of(skin: LivingSkin, shows: str) -> SkinPose:
     """A living skin as it is drawn; ``shows`` is ``Look.skin_shows``."""
-    hidden = np.maximum(hidden_in_creases(skin.skin.height), skin.surface.spread(hidden_in_mouth(skin.drawn_in)))
+    hidden = hidden_in_creases(skin.skin.height)
+    if skin.drawn_in.max() > _LIP:
+        hidden = np.maximum(hidden, skin.surface.spread(hidden_in_mouth(skin.drawn_in)))
     return SkinPose(skin.skin.positions, skin.skin.normals, skin.amplitudes, hidden, shown_values(shows, skin))
 
 

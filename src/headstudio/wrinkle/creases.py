@@ -13,6 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints, TriangleMesh
+from .at_once import at_once
 from .balance import balance
 from .blending import Blending
 from .cross_profile import section_height, section_slope
@@ -39,6 +40,18 @@ class WrinkledSkin:
     height: Floats
     shrinkage: Floats
     amplitude: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _Grown:
+    """Furrows in one pose. shrinkage, amplitude: of every entry of the bed, (i,). height: of the fine vertices [m], and its
+    derivatives by_u and by_v, (k,) each."""
+
+    shrinkage: Floats
+    amplitude: Floats
+    height: Floats
+    by_u: Floats
+    by_v: Floats
 
 
 class Creases:
@@ -93,15 +106,8 @@ class Creases:
         Shrinkage across each furrow (2.3), between vertices interpolated, gives the amplitude M(s) (2.4); M times S(l)
         (2.1) displaces along the normals.
         """
-        shrinkage = self._spread @ self._gauge.shrinkage(posed)
-        grown = amplitude(shrinkage, self._initial)
-        share = self._blending.applied(grown)
-        surface = self._surface.at(posed)
-
-        height, *slopes = (self._sums @ share).reshape(3, -1)
-        height += self._sums_of_squares @ (share * grown)
-        # Like other directions, slopes need no more than single precision.
-        by_u, by_v = (slope.astype(np.float32) for slope in slopes)
+        surface, grown = at_once(lambda: self._surface.at(posed), lambda: self._grown(posed))
+        height, by_u, by_v = grown.height, grown.by_u, grown.by_v
         if self._folds is not None:
             height = self._folds.clamped(height, posed, surface)
         positions = surface.positions + scaled(surface.normals, height)
@@ -110,9 +116,20 @@ class Creases:
             self._whole(posed, positions),
             self._whole(surface.coarse_normals, normals),
             self._whole(np.zeros(len(posed)), height),
-            shrinkage,
-            grown,
+            grown.shrinkage,
+            grown.amplitude,
         )
+
+    def _grown(self, posed: Floats) -> _Grown:
+        """What furrows do to the skin for its posed positions [m], (n, 3)."""
+        shrinkage = self._spread @ self._gauge.shrinkage(posed)
+        grown = amplitude(shrinkage, self._initial)
+        share = self._blending.applied(grown)
+        height, *slopes = (self._sums @ share).reshape(3, -1)
+        height += self._sums_of_squares @ (share * grown)
+        # Like other directions, slopes need no more than single precision.
+        by_u, by_v = (slope.astype(np.float32) for slope in slopes)
+        return _Grown(shrinkage, grown, height, by_u, by_v)
 
     def mesh(self, skin: WrinkledSkin) -> TriangleMesh:
         """The wrinkled skin as a mesh that is shaded with its own normals."""

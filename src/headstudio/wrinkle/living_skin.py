@@ -14,6 +14,7 @@ from scipy import sparse
 
 from ..head.head import Head, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
+from .at_once import at_once
 from .creases import Creases, WrinkledSkin
 from .face import Face
 from .face_settings import FaceSettings
@@ -86,7 +87,7 @@ class LivingSkin:
 
     surface: what it has in common with every other instant. skin: positions, normals and displacement of the refined
     skin. parts: of the head, moved; one that rests is the head's own object. amplitudes: of both fine fields at the
-    vertices of the refined skin, (N, 2). posed: the head's own vertices before they wrinkle [m], (n, 3). drawn_in: how far
+    vertices of the refined skin, (N, 2). expansion: how much larger than at rest it is around each, 1 at rest, (N,). posed: the head's own vertices before they wrinkle [m], (n, 3). drawn_in: how far
     these have gone behind the lips of an open mouth [m], (n,).
     """
 
@@ -94,14 +95,9 @@ class LivingSkin:
     skin: WrinkledSkin
     parts: tuple[Part, ...]
     amplitudes: Floats
+    expansion: Floats
     posed: Floats
     drawn_in: Floats
-    face: Face
-
-    @cached_property
-    def expansion(self) -> Floats:
-        """How much larger than at rest the refined skin is around each vertex, 1 at rest, (N,)."""
-        return self.surface.spread(self.face.expansion(self.posed))
 
 
 class Skin:
@@ -118,13 +114,23 @@ class Skin:
     def at(self, settings: FaceSettings) -> LivingSkin:
         """The skin with the face as its sliders are set."""
         pose = self.face.pose(settings, self._tissue(settings))
-        skin = self.creases.displaced(pose.positions)
+        skin, (amplitudes, expansion) = at_once(
+            lambda: self.creases.displaced(pose.positions),
+            lambda: (self._fine_amplitudes(pose.positions), self._expansion(pose.positions)),
+        )
+        return LivingSkin(self.surface, skin, pose.parts, amplitudes, expansion, pose.positions, pose.drawn_in)
+
+    def _fine_amplitudes(self, posed: Floats) -> Floats:
+        """Of both fine fields at the vertices of the refined skin, (N, 2), for posed positions of the head's [m], (n, 3)."""
         part = self.surface.bed.layout.part.vertices
-        amplitudes = np.ones((len(pose.positions), 2))
+        amplitudes = np.ones((len(posed), 2))
         if self.surface.fine is not None:
-            amplitudes[part] = self.surface.fine.amplitudes(pose.positions[part])
-        spread = self.surface.spread(amplitudes)
-        return LivingSkin(self.surface, skin, pose.parts, spread, pose.positions, pose.drawn_in, self.face)
+            amplitudes[part] = self.surface.fine.amplitudes(posed[part])
+        return self.surface.spread(amplitudes)
+
+    def _expansion(self, posed: Floats) -> Floats:
+        """How much larger than at rest the refined skin is around each vertex, (N,)."""
+        return self.surface.spread(self.face.expansion(posed))
 
     def _tissue(self, settings: FaceSettings) -> Floats:
         """Thickness of the tissue under every vertex at rest [m], (n,); found again only when it changes."""

@@ -17,7 +17,6 @@ class AreaVectors:
     def __init__(self, faces: Ints) -> None:
         """faces: (m, 3)."""
         self._corners = [np.ascontiguousarray(faces[:, k]) for k in range(3)]
-        self._product = np.empty(len(faces), dtype=np.float32)
 
     def at(self, positions: Floats) -> Floats:
         """Twice the area of every triangle along its normal [m^2], by coordinate, (3, m), for positions [m], (n, 3)."""
@@ -25,12 +24,12 @@ class AreaVectors:
         start, second, third = (coordinates.take(corner, axis=1) for corner in self._corners)
         second -= start
         third -= start
-        vectors = start
+        vectors, product = start, np.empty_like(start[0])
         for k in range(3):
             i, j = (k + 1) % 3, (k + 2) % 3
             np.multiply(second[i], third[j], out=vectors[k])
-            np.multiply(second[j], third[i], out=self._product)
-            vectors[k] -= self._product
+            np.multiply(second[j], third[i], out=product)
+            vectors[k] -= product
         return vectors
 
 
