@@ -71,6 +71,8 @@ def test_a_face_and_its_carving(headstudio, monkeypatch):
     report = json.loads(Path("b.json").read_text())
     assert report["face"]["fps"] == pytest.approx(1000 / report["face"]["frame_ms"])
     assert report["face"]["refined"] > report["face"]["triangles"]
+    assert 15_000 < report["face"]["light_refined"] < 25_000
+    assert report["face"]["light_ms"] > 0
     assert report["carvings"][0]["segments"] > 100
 
 

@@ -5,20 +5,24 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import median
 
 import numpy as np
 
+from ..head.head import Head
 from ..params import assign
 from ..render.renderer import Renderer
 from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.stage import Stage
+from ..wrinkle.face import Face
+from ..wrinkle.face_creases import face_creases
 from ..wrinkle.face_settings import FaceSettings
 from ..wrinkle.fine_guides import face_guides
 from ..wrinkle.fine_wrinkles import grow_fine_wrinkles
 from ..wrinkle.tissue_thickness import thickness_of
+from .light_head import light_head
 
 SIZE = (512, 512)
 WARM_UP = 3
@@ -31,7 +35,8 @@ class FaceCost:
     """A face that goes from rest to a smile. triangles: of the head's skin. refined: with those that carry furrows.
 
     Milliseconds are medians: muscles_ms: muscles, jaw, lids and tissue; furrows_ms: shrinkage, displacement and normals;
-    fine_ms: amplitudes of the fine fields; skin_ms: all of these; picture_ms: drawing it at 512 x 512 with shadows.
+    fine_ms: amplitudes of the fine fields; skin_ms: all of these, some at once; picture_ms: drawing it at 512 x 512 with
+    shadows. light_refined, light_ms: triangles of a light head with furrows, and what muscles, tissue and furrows cost on it.
     """
 
     triangles: int
@@ -42,6 +47,8 @@ class FaceCost:
     skin_ms: float
     picture_ms: float
     frame_ms: float
+    light_refined: int
+    light_ms: float
 
     @property
     def fps(self) -> float:
@@ -69,7 +76,7 @@ def face_cost(
     tissue = thickness_of(face.head, "average")
     rows = []
     for k in range(-WARM_UP, frames):
-        settings = FaceSettings(smile=0.5 - 0.5 * float(np.cos(2 * np.pi * (k + 0.5) / 30)))
+        settings = _smiling(k)
         times = [time.perf_counter()]
         pose = face.pose(settings, tissue)
         times.append(time.perf_counter())
@@ -86,6 +93,7 @@ def face_cost(
         if k >= 0:
             rows.append(1e3 * np.diff(times))
         tick()
+    light_refined, light_ms = _light_cost(document, face.head, frames)
     muscles, furrows, fine_ms, whole, picture = (float(value) for value in np.median(rows, axis=0))
     return FaceCost(
         triangles=len(face.head.skin.faces),
@@ -96,7 +104,27 @@ def face_cost(
         skin_ms=whole,
         picture_ms=picture,
         frame_ms=float(median(row[3] + row[4] for row in rows)),
+        light_refined=light_refined,
+        light_ms=light_ms,
     )
+
+
+def _smiling(frame: int) -> FaceSettings:
+    """Up to a smile and back within a second of 30 frames."""
+    return FaceSettings(smile=0.5 - 0.5 * float(np.cos(2 * np.pi * (frame + 0.5) / 30)))
+
+
+def _light_cost(document: Document, whole: Head, frames: int) -> tuple[int, float]:
+    """How many triangles a light head has with coarse furrows, and a pose of it [ms]."""
+    head = light_head(whole)
+    face, tissue = Face(head), thickness_of(head, "average")
+    creases = face_creases(head, replace(document.wrinkle, fineness=1.0))
+    taken = []
+    for k in range(-WARM_UP, frames):
+        start = time.perf_counter()
+        creases.displaced(face.pose(_smiling(k), tissue).positions)
+        taken.append(1e3 * (time.perf_counter() - start))
+    return len(creases.faces), median(taken[WARM_UP:])
 
 
 def carving_cost(document: Document, texels: int, builder: Builder) -> CarvingCost:
