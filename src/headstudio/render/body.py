@@ -49,7 +49,7 @@ class Body:
         vertices = context.buffer(floats_of(corners))
         painted = np.column_stack([hidden_skin, paint(head)])
         surface = Surface(
-            neighbours_together(skin.faces, skin.vertices), skin.vertices, skin.vertex_normals, painted[:, :2]
+            neighbours_together(skin.faces, skin.vertices), skin.vertices, skin.vertex_normals, painted[:, :3]
         )
         self._faces = DetailedFaces(context, surface)
         self._level = -1

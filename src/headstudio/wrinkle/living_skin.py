@@ -87,8 +87,9 @@ class LivingSkin:
 
     surface: what it has in common with every other instant. skin: positions, normals and displacement of the refined
     skin. parts: of the head, moved; one that rests is the head's own object. amplitudes: of both fine fields at the
-    vertices of the refined skin, (N, 2). expansion: how much larger than at rest it is around each, 1 at rest, (N,). posed: the head's own vertices before they wrinkle [m], (n, 3). drawn_in: how far
-    these have gone behind the lips of an open mouth [m], (n,).
+    vertices of the refined skin, (N, 2). expansion: how much larger than at rest it is around each, 1 at rest, (N,).
+    posed: the head's own vertices before they wrinkle [m], (n, 3). drawn_in: how far these have gone behind the lips of an
+    open mouth [m], (n,).
     """
 
     surface: SkinSurface
@@ -98,6 +99,7 @@ class LivingSkin:
     expansion: Floats
     posed: Floats
     drawn_in: Floats
+    face: Face
 
 
 class Skin:
@@ -118,7 +120,7 @@ class Skin:
             lambda: self.creases.displaced(pose.positions),
             lambda: (self._fine_amplitudes(pose.positions), self._expansion(pose.positions)),
         )
-        return LivingSkin(self.surface, skin, pose.parts, amplitudes, expansion, pose.positions, pose.drawn_in)
+        return LivingSkin(self.surface, skin, pose.parts, amplitudes, expansion, pose.positions, pose.drawn_in, self.face)
 
     def _fine_amplitudes(self, posed: Floats) -> Floats:
         """Of both fine fields at the vertices of the refined skin, (N, 2), for posed positions of the head's [m], (n, 3)."""
