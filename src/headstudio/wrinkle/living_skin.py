@@ -120,7 +120,9 @@ class Skin:
             lambda: self.creases.displaced(pose.positions),
             lambda: (self._fine_amplitudes(pose.positions), self._expansion(pose.positions)),
         )
-        return LivingSkin(self.surface, skin, pose.parts, amplitudes, expansion, pose.positions, pose.drawn_in, self.face)
+        return LivingSkin(
+            self.surface, skin, pose.parts, amplitudes, expansion, pose.positions, pose.drawn_in, self.face
+        )
 
     def _fine_amplitudes(self, posed: Floats) -> Floats:
         """Of both fine fields at the vertices of the refined skin, (N, 2), for posed positions of the head's [m], (n, 3)."""
