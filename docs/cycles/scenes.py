@@ -19,7 +19,7 @@ from headstudio.wisp.strands import Strands
 Scene = dict[str, Any]
 
 STRANDS = 15_000
-STYLES = ("bob", "tight-curls", "wavy-lob")
+STYLES = ("bob", "tight-curls", "wavy-lob", "figure-13c", "afro", "ponytail")
 
 # The three views that others were given of this hair, in metres and watts.
 SINTEL: Scene = {
@@ -48,8 +48,9 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
         **front, "head": [str(out / "head.obj")], "target": [0.0, 0.07, 0.0],
         "hair_radius_root": 0.00025, "hair_radius_tip": 0.0001,
     }  # fmt: skip
-    bob, curls, lob = ({**ours, "strands": str(out / f"{style}.npz")} for style in STYLES)
+    bob, curls, lob, ringlets, afro, ponytail = ({**ours, "strands": str(out / f"{style}.npz")} for style in STYLES)
     curls |= {"target": [0.0, 0.03, 0.0], "fov_degrees": 36.0}
+    ringlets |= {"target": [0.0, 0.0, 0.0], "fov_degrees": 36.0}
     behind = {"sun_direction": [0.2, 0.5, -0.9], "sun_strength": 4.0, "ambient": 0.1}
     return {
         **views,
@@ -72,6 +73,19 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
         "sintel-right": {
             **front, "eye": [0.7, 1.65, -0.45], "hair_melanin": 0.4, "hair_redness": 0.1,
             "sun_direction": [0.7, 0.2, 0.3], "sun_strength": 2.0, "ambient": 0.4,
+        },
+        # And these only after the light of the last two was mended.
+        "ringlets-gold-behind": {
+            **ringlets, **behind, "eye": [0.35, 0.1, 0.85], "hair_melanin": 0.2, "hair_redness": 0.6,
+        },
+        "afro-white-above": {**afro, **WHITE, "eye": [0.3, 0.75, 0.6], "target": [0.0, 0.06, 0.0], "fov_degrees": 36.0},
+        "bob-black-quarter": {
+            **bob, "eye": [0.55, 0.02, 0.7], "hair_melanin": 0.97, "hair_redness": 0.1,
+            "sun_direction": [-0.7, 0.6, 0.4], "sun_strength": 3.0,
+        },
+        "ponytail-red-close": {
+            **ponytail, "eye": [-0.75, 0.05, 0.3], "target": [0.0, 0.03, 0.0], "fov_degrees": 16.0,
+            "hair_melanin": 0.5, "hair_redness": 1.0, "sun_direction": [-0.8, 0.35, 0.6],
         },
     }  # fmt: skip
 

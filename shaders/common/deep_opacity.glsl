@@ -6,28 +6,32 @@ uniform sampler2D far_counts;   // up to depths 4 to 7; the last holds all there
 uniform vec4 near_depths;       // behind the first hair, in the light's box
 uniform vec4 far_depths;
 
-// At one texel, which has a first hair of its own; z in units of the box, rates: one over what layers are deep.
-float crossed_at(ivec2 texel, float z, float own, vec4 near_rates, vec4 far_rates) {
+// The count at one texel, which has a first hair of its own, and how fast it grows there with the depth, both in units of
+// the box; rates: one over what layers are deep.
+vec2 crossed_at(ivec2 texel, float z, float own, vec4 near_rates, vec4 far_rates) {
     float depth = z - texelFetch(front, texel, 0).r;
     vec4 near = texelFetch(near_counts, texel, 0), far = texelFetch(far_counts, texel, 0);
     float all_near = near.w;
     vec4 near_part = clamp(1.0 + (depth - near_depths) * near_rates, 0.0, 1.0);
     vec4 far_part = clamp(1.0 + (depth - far_depths) * far_rates, 0.0, 1.0);
-    near -= vec4(0.0, near.xyz) + own * vec4(greaterThan(near_part * (1.0 - near_part), vec4(0.0)));
-    far -= vec4(all_near, far.xyz) + own * vec4(greaterThan(far_part * (1.0 - far_part), vec4(0.0)));
-    return dot(max(near, 0.0), near_part) + dot(max(far, 0.0), far_part);
+    vec4 near_here = vec4(greaterThan(near_part * (1.0 - near_part), vec4(0.0)));
+    vec4 far_here = vec4(greaterThan(far_part * (1.0 - far_part), vec4(0.0)));
+    near = max(near - vec4(0.0, near.xyz) - own * near_here, 0.0);
+    far = max(far - vec4(all_near, far.xyz) - own * far_here, 0.0);
+    return vec2(dot(near, near_part) + dot(far, far_part),
+                dot(near, near_here * near_rates) + dot(far, far_here * far_rates));
 }
 
 // at: in the light's box, 0 to 1. own: what a strand at this very place has added to the count itself.
-float hair_crossed(vec3 at, float own) {
-    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return 0.0;
+vec2 hair_crossed(vec3 at, float own) {
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return vec2(0.0);
     vec4 near_rates = 1.0 / (near_depths - vec4(0.0, near_depths.xyz));
     vec4 far_rates = 1.0 / (far_depths - vec4(near_depths.w, far_depths.xyz));
     ivec2 last = textureSize(front, 0) - 1;
     vec2 place = at.xy * vec2(last + 1) - 0.5;
     ivec2 low = clamp(ivec2(floor(place)), ivec2(0), last), high = min(low + 1, last);
     vec2 part = clamp(place - vec2(low), 0.0, 1.0);
-    float crossed = 0.0;
+    vec2 crossed = vec2(0.0);
     for (int k = 0; k < 4; ++k) {
         bvec2 upper = bvec2(k % 2 == 1, k > 1);
         vec2 share = mix(1.0 - part, part, upper);
@@ -38,5 +42,5 @@ float hair_crossed(vec3 at, float own) {
 }
 
 float hair_crossed(vec3 at) {
-    return hair_crossed(at, 0.0);
+    return hair_crossed(at, 0.0).x;
 }
