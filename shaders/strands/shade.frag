@@ -8,6 +8,7 @@
 #include "common/fibre.glsl"
 #include "common/soft_light.glsl"
 #include "common/pile.glsl"
+#include "common/hot_spot.glsl"
 uniform sampler2D hair_colours;
 uniform bool coloured;         // every point has a colour of its own
 uniform vec3 hair_absorption;  // else: per radius
@@ -34,24 +35,18 @@ float azimuth_between(vec3 along, vec3 a, vec3 b) {
     return acos(clamp(dot(u, v) / max(length(u) * length(v), 1e-6), -1.0, 1.0));
 }
 
-// Strands that are met from everywhere above (render.fibre.sent_on).
-Pile pile_of(mat4x3 sent) {
-    vec3 all = sent[0] + sent[1], onward = -(sent[2] + sent[3]);
-    return pile(0.5 * (all + onward), 0.5 * (all - onward));
+// What a strand sends forward and back of light from everywhere above (render.fibre.sent_on).
+vec3 on(mat4x3 sent) {
+    return 0.5 * (sent[0] + sent[1] - sent[2] - sent[3]);
+}
+
+vec3 back(mat4x3 sent) {
+    return 0.5 * (sent[0] + sent[1] + sent[2] + sent[3]);
 }
 
 // Of its own count, what a strand that is so many texels wide meets again when it reads between them, in the mean.
 float own_count(float texels) {
     return texels < 1.0 ? 0.75 * texels : texels < 2.0 ? texels - 0.25 * texels * texels : 1.0;
-}
-
-// Of the strands that light has crossed, those that the eye, which sees the place, might have had before it, too: it had
-// not. Strands side by side are circles across, and one that lies on the way of the light and farther than
-// radius / sin(phi / 2) is not on the eye's (the hot spot of leaves, Kuusk 1985, for strands). growth: of the count with
-// the depth, in boxes.
-float crossed_unseen(float crossed, float growth, float radius, float phi, float cos_in) {
-    float within = growth * radius / (box_size * max(sin(0.5 * phi) * cos_in, 1e-3));
-    return crossed < within ? 0.5 * crossed * crossed / within : crossed - 0.5 * within;
 }
 
 // Kajiya, Kay 1989: a cylinder that scatters evenly, and mirrors along a cone; scaled to send as much as a fibre does.
@@ -81,9 +76,10 @@ void main() {
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
 
     mat4x3 sent_in = albedo(sin_in, absorption), sent = albedo(sin_out, absorption);
-    Pile pile_in = pile_of(sent_in), pile_out = pile_of(sent);
-    float direct = exp(-crossed_unseen(crossed, count.y, point.w, phi, sqrt(1.0 - sin_in * sin_in)));
-    vec3 scattered = passing(pile_in, crossed, behind) - exp(-crossed);
+    Pile pile_in = pile(on(sent_in), back(sent_in)), pile_out = pile(on(sent), back(sent));
+    float cos_in = sqrt(max(1.0 - sin_in * sin_in, 1e-6));
+    float direct = exp(-crossed_unseen(crossed, count.y * point.w / (box_size * cos_in), phi));
+    vec3 passed = passing(pile_in, crossed, behind), scattered = passed - exp(-crossed);
 
     mat4x3 soft = soft_light(point.xyz);
     mat3 slope = mat3(soft[1], soft[2], soft[3]);
@@ -96,10 +92,10 @@ void main() {
         vec4 wider = vec4(min(crossed, 8.0) * variances.y);
         from_light = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)))
             + scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider))
-            + (direct + scattered) * sent_in[0] * sent_back_by(pile_in, behind)
+            + passed * on(sent_in) * sent_back_by(pile_in, behind)
                 * along_hair(sin_in, sin_out, vec4(0.0)).z * 0.5 * max(cos(phi), 0.0);
         from_sky = max(sent[0] * level + sent[2] * aside, 0.0) + max(sent[1] * level + sent[3] * aside, 0.0)
-            + sent[0] * sent_back_by(pile_out, roundabout * behind) * max(level + 0.25 * pi * aside, 0.0);
+            + on(sent) * sent_back_by(pile_out, roundabout * behind) * max(level + 0.25 * pi * aside, 0.0);
     } else {
         vec3 colour = exp(-sqrt(absorption) * colour_slope);
         from_light = direct * kajiya_kay(sin_in, sin_out, colour, 0.05) + scattered * kajiya_kay(sin_in, sin_out, colour, 0.0);

@@ -85,3 +85,23 @@ def test_lighter_colours_absorb_less_and_pass_more_on() -> None:
     assert (np.diff(absorption) < 0).all()
     assert (np.diff(lost_in_strands(*sent_on(tables, absorption))) < 0).all()
     assert lost_in_strands(*sent_on(tables, np.zeros(3))) == pytest.approx(0.0, abs=0.05)
+
+
+def test_a_pile_sends_back_what_any_light_from_above_does() -> None:
+    """Against a sum over the azimuths that light comes from and goes to."""
+    fibre = Fibre()
+    tables = fibre_tables(fibre)
+    azimuth = (
+        np.arange(180) + 0.5
+    ) / 180 * np.pi - np.pi / 2  # from above; weighted by the light through a level surface
+    turned = np.abs((azimuth[:, None] - PHI + np.pi) % (2 * np.pi) - np.pi)
+    place = 5
+    coded = np.linspace(0, 0.98, ABSORPTIONS)[place]
+    around = azimuthal(PHI, np.array([(SINES // 2 + 0.5) / SINES]), np.array([coded / (1 - coded)]), fibre)[
+        :, 0, 0
+    ].sum(axis=1)
+    upward = turned < np.pi / 2  # PHI is the azimuth from where the light comes to where it goes
+    sent = (np.cos(azimuth) / np.cos(azimuth).sum()) @ (upward @ around) * (2 * np.pi / len(PHI))
+    forward, back = sent_on(tables, np.full(1, coded / (1 - coded)))
+    assert back[0] == pytest.approx(sent, rel=0.03)
+    assert forward[0] + back[0] == pytest.approx(around.sum() * 2 * np.pi / len(PHI), rel=0.01)

@@ -190,8 +190,8 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
 def sent_on(tables: FibreTables, absorption: Floats) -> tuple[Floats, Floats]:
     """What a strand in a pile sends forward and back of the light it meets, RGB, (3,) each, at a middling inclination.
 
-    In a pile light comes from everywhere above, and what comes aslant is sent back more easily: with a mean cosine g of
-    what is sent on, (1 - g) / 2 of it goes back, as a mean over a half of all azimuths.
+    In a pile light comes from everywhere above, and what comes aslant is sent back more easily. In the mean over what light
+    goes through a level surface, (1 - cos) / 2 of the light that a strand turns by an angle comes back.
     """
     coded = absorption / (1 + absorption)
     place = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)

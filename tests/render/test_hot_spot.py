@@ -1,0 +1,51 @@
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+import pytest
+
+from headstudio.resources import shader
+
+COUNT, RADIUS = 40_000, 0.05
+
+ASKING = """#version 330
+{included}
+in vec3 asked;
+out float count;
+void main() {{ count = crossed_unseen(asked.x, asked.y, asked.z); }}
+"""
+
+
+def crossed_unseen(context: moderngl.Context, asked: np.ndarray) -> np.ndarray:
+    """What the shader says of count, count within a radius, and azimuth, (n, 3): (n,)."""
+    included = shader("common/hot_spot.glsl").read_text()
+    program = context.program(vertex_shader=ASKING.format(included=included), varyings=["count"])
+    given, answer = context.buffer(asked.astype("f4").tobytes()), context.buffer(reserve=4 * len(asked))
+    context.simple_framebuffer((4, 4)).use()
+    context.vertex_array(program, [(given, "3f", "asked")]).transform(answer, moderngl.POINTS, vertices=len(asked))
+    return np.frombuffer(answer.read(), np.float32)
+
+
+def reached(circles: np.ndarray, azimuth: float, far: float) -> np.ndarray:
+    """Which circles, (n, 2), the ray from the origin reaches before it is ``far`` away."""
+    along = circles @ [np.cos(azimuth), np.sin(azimuth)]
+    aside = circles @ [-np.sin(azimuth), np.cos(azimuth)]
+    return (along > 0) & (along < far) & (np.abs(aside) < RADIUS)
+
+
+@pytest.mark.parametrize("phi", [0.3, 0.8, 1.5, 2.6])
+def test_strands_that_would_hide_a_place_do_not_shade_it(gl: moderngl.Context, phi: float) -> None:
+    """Against circles strewn at random, of which none stands between the place and the eye."""
+    circles = np.random.default_rng(1).uniform(-1.0, 1.0, (COUNT, 2))
+    seen = circles[~reached(circles, 0.0, 1.0)]
+    density, far = COUNT / 4.0, 0.8
+    wanted = reached(seen, phi, far).sum()
+    met = 2 * RADIUS * density
+    (count,) = crossed_unseen(gl, np.array([[met * far, met * RADIUS, phi]]))
+    assert count == pytest.approx(wanted, rel=0.05)
+    assert count < met * far
+
+
+def test_from_where_the_sun_is_nothing_seen_is_in_shadow(gl: moderngl.Context) -> None:
+    counts = crossed_unseen(gl, np.array([[3.0, 0.2, 0.0], [3.0, 0.2, np.pi], [0.0, 0.2, 1.0], [3.0, 0.0, 1.0]]))
+    np.testing.assert_allclose(counts, [0.0, 3.0, 0.0, 3.0], atol=0.03)
