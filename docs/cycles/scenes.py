@@ -74,7 +74,7 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
             **front, "eye": [0.7, 1.65, -0.45], "hair_melanin": 0.4, "hair_redness": 0.1,
             "sun_direction": [0.7, 0.2, 0.3], "sun_strength": 2.0, "ambient": 0.4,
         },
-        # And these only after the light of the last two was mended.
+        # Other hair, other light: what showed that a pile sends back too little.
         "ringlets-gold-behind": {
             **ringlets, **behind, "eye": [0.35, 0.1, 0.85], "hair_melanin": 0.2, "hair_redness": 0.6,
         },
