@@ -56,9 +56,9 @@ def test_heights_are_metres_below_the_skin(wrinkles: FineWrinkles) -> None:
 
 def test_furrows_follow_the_compression_across_them(wrinkles: FineWrinkles) -> None:
     rest = wrinkles.texels.map.mesh.vertices
-    np.testing.assert_allclose(wrinkles.amplitudes(rest), 0.5)
+    np.testing.assert_allclose(wrinkles.growth.amplitudes(rest), 0.5)
     # The fields lie 37 degrees to both sides of u. Skin that shrinks in v shrinks both alike.
-    across = wrinkles.amplitudes(rest * [1, 0.8, 1])
+    across = wrinkles.growth.amplitudes(rest * [1, 0.8, 1])
     np.testing.assert_allclose(across[:, 0], across[:, 1], atol=1e-9)
     assert (across > 0.53).all()
     # Skin that shrinks square to the first field deepens the first one, and hardly the other.
@@ -66,11 +66,11 @@ def test_furrows_follow_the_compression_across_them(wrinkles: FineWrinkles) -> N
     square = np.array([-along[1], along[0]])
     squeezed = rest.copy()
     squeezed[:, :2] -= 0.2 * (rest[:, :2] @ square)[:, None] * square
-    shrinkage = wrinkles.shrinkage(squeezed)
+    shrinkage = wrinkles.growth.shrinkage(squeezed)
     np.testing.assert_allclose(shrinkage[:, 0], 0.2, atol=1e-6)
     turned = SETTINGS.crossing
     np.testing.assert_allclose(shrinkage[:, 1], 1 - math.hypot(math.sin(turned), 0.8 * math.cos(turned)), atol=1e-6)
-    stretched = wrinkles.amplitudes(2 * rest - squeezed)
+    stretched = wrinkles.growth.amplitudes(2 * rest - squeezed)
     assert (stretched[:, 0] < 0.45).all()
 
 

@@ -8,7 +8,6 @@ from types import MappingProxyType
 from typing import Any
 
 from ..params import assign
-from ..scene.ahead import SimulationAhead
 from .application import Application
 from .studio import Studio
 from .window import Window
@@ -23,7 +22,7 @@ def main(project: str | None = None, changes: Mapping[str, Any] = NOTHING) -> No
     no display or no OpenGL 3.3; ProjectError or OSError for a project that cannot be opened; ParameterError for a change
     that cannot be made. Should the program fail, unsaved work is written to a file of its own, which the error then names.
     """
-    studio = Studio(SimulationAhead)
+    studio = Studio(live=True)
     warnings = studio.work.open(Path(project)) if project is not None else studio.work.start_over()
     for warning in warnings:
         studio.messages.say(warning, "warning")

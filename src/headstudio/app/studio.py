@@ -17,7 +17,6 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.drafts import drafted, next_to_build, same_hair
 from ..scene.project import ProjectError
-from ..scene.simulation import Simulation
 from ..scene.stage import Stage
 from ..wisp.adopt import AdoptError
 from ..wisp.selection import StylingError
@@ -57,8 +56,8 @@ class Grown:
 class Studio:
     """Everything the faces of the window show and change."""
 
-    def __init__(self, simulation: type[Simulation] = Simulation) -> None:
-        """simulation: what moves loose hair."""
+    def __init__(self, live: bool = False) -> None:
+        """live: loose hair and faces are worked out one frame ahead, in other processes."""
         self.work = Work()
         self.messages = Messages()
         self.playback = Playback()
@@ -70,7 +69,7 @@ class Studio:
         self.stage: Stage | None = None
         builder = Builder(lambda part: self.builds.announce(part))
         self.builds: Builds[Grown] = Builds(
-            lambda document: _grow(builder, document, simulation, settled=document is self._settling)
+            lambda document: _grow(builder, document, live, settled=document is self._settling)
         )
         self._settling: Document | None = None
         self._unsettled_for = 0.0
@@ -177,7 +176,7 @@ class Studio:
         if document != self._tuned:
             animation.retune(document)
             self._tuned = document
-        elif seconds <= 0 and self.stage is not None:
+        elif seconds <= 0 and self.stage is not None and animation.exact:
             return
         if seconds > 0:
             self.performance.follow(document.motion, animation.time)
@@ -297,9 +296,9 @@ def explain(error: Exception) -> str:
     return text if isinstance(error, FORESEEN) else f"{type(error).__name__}: {text}"
 
 
-def _grow(builder: Builder, document: Document, simulation: type[Simulation], *, settled: bool) -> Grown:
+def _grow(builder: Builder, document: Document, live: bool, *, settled: bool) -> Grown:
     shown = document.look.strands_shown
-    return Grown(document, Animation(builder, document, shown, settled=settled, simulation=simulation))
+    return Grown(document, Animation(builder, document, shown, settled=settled, live=live))
 
 
 def _is_draft(shown: Document, wanted: Document) -> bool:

@@ -15,12 +15,15 @@ from ..params import assign
 from ..render.renderer import Renderer
 from ..scene.builder import Builder
 from ..scene.document import Document
+from ..scene.face_ahead import FaceAhead
 from ..scene.stage import Stage
 from ..wrinkle.face import Face
 from ..wrinkle.face_creases import face_creases
 from ..wrinkle.face_settings import FaceSettings
 from ..wrinkle.fine_guides import face_guides
 from ..wrinkle.fine_wrinkles import grow_fine_wrinkles
+from ..wrinkle.living_skin import Skin
+from ..wrinkle.performance import keyframe
 from ..wrinkle.tissue_thickness import thickness_of
 from .light_head import light_head
 
@@ -36,7 +39,8 @@ class FaceCost:
 
     Milliseconds are medians: muscles_ms: muscles, jaw, lids and tissue; furrows_ms: shrinkage, displacement and normals;
     fine_ms: amplitudes of the fine fields; skin_ms: all of these, some at once; picture_ms: drawing it at 512 x 512 with
-    shadows. light_refined, light_ms: triangles of a light head with furrows, and what muscles, tissue and furrows cost on it.
+    shadows; frame_ms: of a performance, the skin of the next frame being worked out in another process meanwhile.
+    light_refined, light_ms: triangles of a light head with furrows, and what muscles, tissue and furrows cost on it.
     """
 
     triangles: int
@@ -83,7 +87,7 @@ def face_cost(
         creases.displaced(pose.positions)
         times.append(time.perf_counter())
         if fine is not None:
-            fine.amplitudes(pose.positions[part])
+            fine.growth.amplitudes(pose.positions[part])
         times.append(time.perf_counter())
         living = skin.at(settings)
         times.append(time.perf_counter())
@@ -103,10 +107,30 @@ def face_cost(
         fine_ms=fine_ms,
         skin_ms=whole,
         picture_ms=picture,
-        frame_ms=float(median(row[3] + row[4] for row in rows)),
+        frame_ms=_frame_ms(skin, document, renderer, frames, tick),
         light_refined=light_refined,
         light_ms=light_ms,
     )
+
+
+def _frame_ms(skin: Skin, document: Document, renderer: Renderer, frames: int, tick: Callable[[], None]) -> float:
+    """What a frame of a performance takes while skin moves one frame ahead [ms]."""
+    face = FaceAhead(skin)
+    if not face.wait_for_process():
+        raise RuntimeError("the process of the skin did not start")
+    rate = 30.0
+    smiles = (keyframe(k / rate, {"smile": _smiling(k).smile}) for k in range(WARM_UP + frames + 1))
+    performance = FaceSettings(performance=tuple(smiles))
+    taken = []
+    for k in range(WARM_UP + frames):
+        start = time.perf_counter()
+        face.advance(performance, k / rate, 1 / rate)
+        living = face.at(performance, k / rate)
+        renderer.render(Stage(skin.face.head, skin=living), document.look, document.camera, SIZE, skin=document.skin)
+        renderer.context.finish()
+        taken.append(1e3 * (time.perf_counter() - start))
+        tick()
+    return median(taken[WARM_UP:])
 
 
 def _smiling(frame: int) -> FaceSettings:

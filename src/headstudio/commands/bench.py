@@ -59,7 +59,7 @@ def bench(document: Document, subjects: tuple[str, ...], amounts: Amounts, out: 
     steps = {
         "animation": len(amounts.particles) * frames_to_draw(frames),
         "hairstyle": len(amounts.strands) * (REPEATS + 2),
-        "face": FACE_WARM_UP + frames + len(amounts.texels),
+        "face": 2 * (FACE_WARM_UP + frames) + len(amounts.texels),
     }
     report: dict[str, Any] = {
         "versions": versions(),

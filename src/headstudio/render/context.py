@@ -77,5 +77,6 @@ def release(context: moderngl.Context, *objects: moderngl.Framebuffer | moderngl
 def set_uniforms(program: moderngl.Program, **values: object) -> None:
     """Set uniforms by name; one that the compiler found no use for is passed over."""
     for name, value in values.items():
-        if name in program:
-            program[name].value = value  # type: ignore[union-attr]
+        uniform = program.get(name, None)
+        if uniform is not None:
+            uniform.value = value  # type: ignore[union-attr]

@@ -80,7 +80,7 @@ def _shrinkage(skin: LivingSkin) -> Floats:
     everywhere = np.zeros(len(skin.posed))
     if surface.fine is not None:
         part = surface.bed.layout.part.vertices
-        everywhere[part] = _larger(surface.fine.shrinkage(skin.posed[part]))
+        everywhere[part] = _larger(surface.fine.growth.shrinkage(skin.posed[part]))
     return _furrow_values(skin, skin.skin.shrinkage, surface.spread(everywhere))
 
 

@@ -1,7 +1,6 @@
 """The simulation in a process of its own, one frame ahead of the picture.
 
-While a frame is drawn the next one is worked out elsewhere, so that a frame takes as long as the slower of the two. Python
-threads would not do: both sides are many small calls that hold its lock.
+While a frame is drawn the next one is worked out elsewhere, so that a frame takes as long as the slower of the two.
 
 The other process keeps nothing between two frames but the neighbour list. It is told the moment to go on from, the
 parameters, and where the head will be, and it answers with the moment that it has come to. So whatever happens here in
@@ -10,13 +9,8 @@ between (hands, a reset, another slider) is simply part of what it is told next.
 
 from __future__ import annotations
 
-import contextlib
-import multiprocessing
-import signal
-import weakref
 from dataclasses import dataclass
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
+from typing import Any
 
 from ..head.frame import HeadFrame
 from ..lcp.body import Body
@@ -25,6 +19,7 @@ from .builder import Built
 from .document import Document
 from .motion import Motion
 from .moving_hair import STEP_RATE, MovingHair
+from .other_process import OtherProcess
 from .simulation import Simulation
 
 
@@ -54,7 +49,7 @@ class SimulationAhead(Simulation):
     """
 
     def __init__(self, built: Built, document: Document) -> None:
-        self._worker: _Worker | None = None
+        self._worker: OtherProcess | None = None
         self._asked = False
         super().__init__(built, document)
 
@@ -88,9 +83,9 @@ class SimulationAhead(Simulation):
         self._take()
         super().release()
 
-    def _running(self) -> _Worker:
+    def _running(self) -> OtherProcess:
         if self._worker is None:
-            self._worker = _Worker(self.model, self.dynamics.body, self.document)
+            self._worker = OtherProcess(_Answers, self.model, self.dynamics.body, self.document)
         return self._worker
 
     def _take(self) -> None:
@@ -107,64 +102,19 @@ class SimulationAhead(Simulation):
         self.notes += notes
 
 
-class _Worker:
-    """The other process, as it is seen from here. It ends with the object, or with this process."""
+class _Answers:
+    """Moves hair in the other process."""
 
     def __init__(self, model: HairModel, body: Body, document: Document) -> None:
-        spawning = multiprocessing.get_context("spawn")
-        self._pipe, theirs = spawning.Pipe()
-        process = spawning.Process(target=_serve, args=(theirs, model, body, document), daemon=True)
-        process.start()
-        theirs.close()
-        self._ready = False
-        weakref.finalize(self, _end, self._pipe, process)
+        self._hair = MovingHair(model, body, document)
 
-    @property
-    def ready(self) -> bool:
-        """Whether it has started, and not ended."""
-        return self._ready or (not self._pipe.closed and self._pipe.poll() and self.wait())
-
-    def wait(self) -> bool:
-        """Wait until it has started; False when it has ended."""
-        if not self._ready and not self._pipe.closed:
-            self._ready = self.answer() is not None
-        return self._ready
-
-    def ask(self, *question: object) -> bool:
-        """Send what _serve works on; False when nobody is there any more."""
-        try:
-            self._pipe.send(question)
-        except OSError:
-            self._ready = False
-        return self._ready
-
-    def answer(self) -> tuple[dict[str, object], list[str]] | None:
-        """Wait for the answer; None when there will be none."""
-        try:
-            answer: tuple[dict[str, object], list[str]] = self._pipe.recv()
-        except (EOFError, OSError):
-            self._ready = False
-            self._pipe.close()
-            return None
-        return answer
-
-
-def _end(pipe: Connection, process: BaseProcess) -> None:
-    pipe.close()
-    process.join(1.0)
-    process.terminate()
-
-
-def _serve(pipe: Connection, model: HairModel, body: Body, document: Document) -> None:
-    """What the other process does: answer until nobody asks any more."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends with the process that asks
-    hair = MovingHair(model, body, document)
-    with contextlib.suppress(EOFError, OSError):  # nobody asks any more
-        pipe.send(({}, []))
-        while True:
-            tuned, moment, motion, seconds = pipe.recv()
-            hair.retune(tuned)
-            hair.take_up(moment)
-            hair.advance(motion, seconds)
-            pipe.send((hair.moment(), hair.notes))
-            hair.notes = []
+    def __call__(
+        self, tuned: Document, moment: dict[str, Any], motion: SampledMotion, seconds: float
+    ) -> tuple[dict[str, Any], list[str]]:
+        """What the hair comes to from ``moment`` on, and what the user should be told."""
+        hair = self._hair
+        hair.notes = []
+        hair.retune(tuned)
+        hair.take_up(moment)
+        hair.advance(motion, seconds)
+        return hair.moment(), hair.notes

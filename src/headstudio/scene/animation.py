@@ -7,12 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 from ..head.frame import HeadFrame
-from ..wrinkle.face_settings import FaceSettings
-from ..wrinkle.living_skin import LivingSkin
+from .ahead import SimulationAhead
 from .builder import Builder
 from .document import Document
+from .face_ahead import FaceAhead
 from .measures import head_figures
 from .motion import Motion
+from .moving_face import MovingFace
 from .simulation import Simulation
 from .stage import Stage
 
@@ -31,19 +32,20 @@ class Animation:
         strands: int | None = None,
         *,
         settled: bool = True,
-        simulation: type[Simulation] = Simulation,
+        live: bool = False,
     ) -> None:
         """Build what the document asks for; ``strands``: of a hairstyle at most so many. settled: False is quicker where
-        furrows change, and leaves ``settled`` to be made up for. simulation: SimulationAhead for who looks on live.
-        Raises HeadError, ParameterError."""
+        furrows change, and leaves ``settled`` to be made up for. live: somebody looks on, so that loose hair and the
+        face are worked out one frame ahead, in other processes. Raises HeadError, ParameterError."""
         self.document = document
         self.head = builder.head(document.head)
         self.scalp = builder.scalp(document)
         hair_as = document.look.hair_as
-        self.simulation = simulation(builder.build(document), document) if hair_as == "particles" else None
+        simulate = SimulationAhead if live else Simulation
+        self.simulation = simulate(builder.build(document), document) if hair_as == "particles" else None
         self.hairdo = builder.hairdo(document, strands) if hair_as == "strands" else None
         self.skin = builder.skin(document, settled=settled) if document.look.skin_as == "living" else None
-        self._shown: tuple[FaceSettings, LivingSkin] | None = None
+        self._face = (FaceAhead if live else MovingFace)(self.skin) if self.skin is not None else None
         self._time = 0.0
         self._frame = HeadFrame()
         self._ahead = 0.0
@@ -70,6 +72,8 @@ class Animation:
         else:
             self._time += seconds
             self._frame = motion(self._time)
+        if self._face is not None:
+            self._face.advance(self.document.face, self.face_time, seconds)
 
     def reset(self) -> None:
         """Back to rest, at time 0."""
@@ -87,6 +91,8 @@ class Animation:
                 return False
             self.simulation = theirs
         self._time, self._frame, self._ahead = earlier._time, earlier._frame, earlier._ahead
+        if self.skin is not None and self.skin is earlier.skin:
+            self._face = earlier._face
         return True
 
     @property
@@ -118,19 +124,16 @@ class Animation:
     def stage(self) -> Stage:
         """What there is to see now."""
         stage = self.simulation.stage() if self.simulation else Stage(self.head, self._frame)
-        stage = replace(stage, skin=self._living_skin())
+        if self._face is not None:
+            stage = replace(stage, skin=self._face.at(self.document.face, self.face_time))
         if self.hairdo is None:
             return stage
         return replace(stage, strands=self.hairdo.strands, adornments=self.hairdo.adornments)
 
-    def _living_skin(self) -> LivingSkin | None:
-        """The face as it is now; the same object while nothing in it moves."""
-        if self.skin is None:
-            return None
-        face = self.document.face.at(self.face_time)
-        if self._shown is None or self._shown[0] != face:
-            self._shown = (face, self.skin.at(face))
-        return self._shown[1]
+    @property
+    def exact(self) -> bool:
+        """Whether the last stage shows the face of this very moment, and not of one that was foreseen for about now."""
+        return self._face is None or self._face.shows(self.document.face, self.face_time)
 
 
 def needs(document: Document) -> tuple[Any, ...]:

@@ -78,8 +78,8 @@ class Creases:
             furrows = [laid.furrow for laid in bed.furrows]
         if len(furrows) != len(bed.furrows):
             raise ValueError(f"the skin is prepared for {len(bed.furrows)} furrows, not {len(furrows)}")
-        self.bed = bed
         self.faces: Ints = bed.refined.faces
+        self._count = len(bed.refined.home)
         self._initial = np.array([furrow.initial for furrow in furrows])[bed.furrow]
         self._surface = SmoothSurface(bed.refined, bed.layout, bed.vertex)
         self._row = self._surface.row_of[bed.vertex]
@@ -146,7 +146,7 @@ class Creases:
         """Values of the whole refined skin, (N, ...): of the coarse vertices, (n, ...), where not of the fine, (k, ...)."""
         vertices, count = self._surface.vertices, len(coarse)
         # All vertices that the coarse skin does not have are fine ones, and the last of them.
-        replaced = len(vertices) - (len(self.bed.refined.home) - count)
+        replaced = len(vertices) - (self._count - count)
         whole = np.concatenate([coarse, fine[replaced:]])
         whole[vertices[:replaced]] = fine[:replaced]
         return whole

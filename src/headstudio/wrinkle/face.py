@@ -94,14 +94,14 @@ class Face:
 
         thickness: of the tissue under every vertex of the skin at rest [m], (n,); None leaves the skin unlifted.
         """
-        strengths = {
-            (name, side): strength
-            for name in _SHOWN
-            for side in SIDES
-            if (strength := settings.strength(name, side)) > 0
-        }
+        positions, drawn_in = self.skin_at(settings, thickness)
+        return FacePose(positions, self.parts_on(positions, settings), drawn_in)
+
+    def skin_at(self, settings: FaceSettings, thickness: Floats | None = None) -> tuple[Floats, Floats]:
+        """What ``pose`` does to the skin alone: its positions [m], (n, 3), and how far it is drawn in [m], (n,)."""
+        strengths = _strengths(settings)
         if not strengths and settings.jaw_open == 0:
-            return FacePose(self._rest, self.head.parts, self._jaw.drawn_in(0.0))
+            return self._rest, self._jaw.drawn_in(0.0)
         drive = self._drive(strengths, settings.jaw_open)
         positions = self._rest + (
             self._fields @ self._activity(strengths, self._share_of_units(settings.driver))
@@ -118,8 +118,15 @@ class Face:
             positions = self._tissue.lifted(positions, lift * thickness)
         for lids in self._lids.values():
             positions[lids.vertices] = lids.cleared(positions[lids.vertices])
-        parts = tuple(self._posed_part(k, positions, drive) for k in range(len(self.head.parts)))
-        return FacePose(positions, parts, self._jaw.drawn_in(drive.jaw))
+        return positions, self._jaw.drawn_in(drive.jaw)
+
+    def parts_on(self, positions: Floats, settings: FaceSettings) -> tuple[Part, ...]:
+        """The parts of the head on a skin that ``settings`` have brought to ``positions`` [m], (n, 3)."""
+        strengths = _strengths(settings)
+        if not strengths and settings.jaw_open == 0:
+            return self.head.parts
+        drive = self._drive(strengths, settings.jaw_open)
+        return tuple(self._posed_part(k, positions, drive) for k in range(len(self.head.parts)))
 
     def posed_head(self, pose: FacePose) -> Head:
         """The head with the skin and parts of a pose."""
@@ -209,6 +216,13 @@ class Face:
             moved[lids.vertices] = True
         faces: Ints = self.head.skin.faces[moved[self.head.skin.faces].any(axis=1)]
         return faces
+
+
+def _strengths(settings: FaceSettings) -> dict[tuple[str, str], float]:
+    """How strongly each side shows each expression, those that it shows at all."""
+    return {
+        (name, side): strength for name in _SHOWN for side in SIDES if (strength := settings.strength(name, side)) > 0
+    }
 
 
 def _fields(head: Head) -> tuple[dict[tuple[str, str, str], int], sparse.csr_array]:

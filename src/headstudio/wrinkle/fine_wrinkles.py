@@ -14,13 +14,13 @@ from ..head.mesh import Floats, Ints
 from . import pores
 from .carving import CarvedField, carve
 from .direction_field import DirectionField, interpolate
+from .fine_growth import FineGrowth
 from .fine_guides import FIELDS, FineGuides
 from .fine_settings import FineSettings
 from .laws import LAWS
 from .metric import perpendicular, vertex_metrics
 from .seams import SharedSkin
-from .shape import amplitude
-from .shrinkage import ShrinkageGauge, shrinkage_gauge
+from .shrinkage import shrinkage_gauge
 from .texels import TexelMap, texel_map
 from .texture_map import TextureMap
 
@@ -46,26 +46,14 @@ class FineWrinkles:
     pores: NDArray[np.float32]
     initial_amplitude: float
 
-    def shrinkage(self, posed: Floats) -> Floats:
-        """How far the skin shrinks across the furrows of each field at every vertex, (n, 2).
-
-        posed: positions of the map's vertices [m], (n, 3).
-        """
-        return np.stack([gauge.shrinkage(posed) for gauge in self._gauges], axis=1)
-
-    def amplitudes(self, posed: Floats) -> Floats:
-        """M of both fields at every vertex, (n, 2): section 2.6.4. Between vertices it is interpolated.
-
-        posed: positions of the map's vertices [m], (n, 3).
-        """
-        return amplitude(self.shrinkage(posed), self.initial_amplitude)
-
     @cached_property
-    def _gauges(self) -> tuple[ShrinkageGauge, ...]:
+    def growth(self) -> FineGrowth:
+        """What measures how far they are out."""
         texture_map = self.texels.map
         everywhere, metrics = np.arange(len(texture_map.uv)), vertex_metrics(texture_map)
-        return tuple(
-            shrinkage_gauge(texture_map, everywhere, perpendicular(field.directions, metrics)) for field in self.fields
+        across = (perpendicular(field.directions, metrics) for field in self.fields)
+        return FineGrowth(
+            tuple(shrinkage_gauge(texture_map, everywhere, each) for each in across), self.initial_amplitude
         )
 
 

@@ -46,7 +46,7 @@ class LimbSkin:
         """The skin of the limb whose vertices are at ``posed`` [m], (n, 3)."""
         amplitudes, shrinkage = np.ones((len(self.source), 2)), np.zeros((len(self.source), 2))
         if self.fine is not None:
-            shrinkage[self.mapped] = self.fine.shrinkage(posed[self.source[self.mapped]])
+            shrinkage[self.mapped] = self.fine.growth.shrinkage(posed[self.source[self.mapped]])
             amplitudes = amplitude(shrinkage, self.fine.initial_amplitude)
         expansion = np.ones(len(posed))
         expansion[self.tissue.vertices] = self.tissue.expansion(posed)

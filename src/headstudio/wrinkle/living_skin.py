@@ -1,8 +1,4 @@
-"""The skin of a head in any expression: the face moves, large wrinkles form, fine ones rise and fall.
-
-Bando's thesis, chapter 2, in its order: muscles and tissue (2.5.2), shrinkage and furrows (2.5.3), fine-scale wrinkles
-(2.6.4).
-"""
+"""The skin of a head in any expression: the face moves, large wrinkles form, fine ones rise and fall."""
 
 from __future__ import annotations
 
@@ -14,12 +10,12 @@ from scipy import sparse
 
 from ..head.head import Head, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
-from .at_once import at_once
-from .creases import Creases, WrinkledSkin
+from .creases import Creases
 from .face import Face
 from .face_settings import FaceSettings
 from .fine_wrinkles import FineWrinkles
 from .furrow_bed import FurrowBed
+from .skin_motion import MovedSkin, SkinMotion
 from .tissue_thickness import painted_thickness, thickness_of
 
 
@@ -82,24 +78,16 @@ class SkinSurface:
 
 
 @dataclass(frozen=True, eq=False)
-class LivingSkin:
-    """A skin at one instant, head frame.
+class LivingSkin(MovedSkin):
+    """A skin at one instant with all that belongs to it, head frame.
 
-    surface: what it has in common with every other instant. skin: positions, normals and displacement of the refined
-    skin. parts: of the head, moved; one that rests is the head's own object. amplitudes: of both fine fields at the
-    vertices of the refined skin, (N, 2). expansion: how much larger than at rest it is around each, 1 at rest, (N,).
-    posed: the head's own vertices before they wrinkle [m], (n, 3). drawn_in: how far these have gone behind the lips of an
-    open mouth [m], (n,).
+    surface: what it has in common with every other instant. parts: of the head, moved; one that rests is the head's own
+    object.
     """
 
     surface: SkinSurface
-    skin: WrinkledSkin
-    parts: tuple[Part, ...]
-    amplitudes: Floats
-    expansion: Floats
-    posed: Floats
-    drawn_in: Floats
     face: Face
+    parts: tuple[Part, ...]
 
 
 class Skin:
@@ -113,30 +101,23 @@ class Skin:
         self._thickness: tuple[object, Floats] | None = None
         self._preset: tuple[str, Floats] | None = None
 
+    @cached_property
+    def motion(self) -> SkinMotion:
+        """What moves it."""
+        surface = self.surface
+        growth = surface.fine.growth if surface.fine is not None else None
+        return SkinMotion(self.face, self.creases, growth, surface.bed.layout.part.vertices, surface.interpolation)
+
     def at(self, settings: FaceSettings) -> LivingSkin:
         """The skin with the face as its sliders are set."""
-        pose = self.face.pose(settings, self._tissue(settings))
-        skin, (amplitudes, expansion) = at_once(
-            lambda: self.creases.displaced(pose.positions),
-            lambda: (self._fine_amplitudes(pose.positions), self._expansion(pose.positions)),
-        )
-        return LivingSkin(
-            self.surface, skin, pose.parts, amplitudes, expansion, pose.positions, pose.drawn_in, self.face
-        )
+        return self.alive(self.motion.at(settings, self.tissue(settings)), settings)
 
-    def _fine_amplitudes(self, posed: Floats) -> Floats:
-        """Of both fine fields at the vertices of the refined skin, (N, 2), for posed positions of the head's [m], (n, 3)."""
-        part = self.surface.bed.layout.part.vertices
-        amplitudes = np.ones((len(posed), 2))
-        if self.surface.fine is not None:
-            amplitudes[part] = self.surface.fine.amplitudes(posed[part])
-        return self.surface.spread(amplitudes)
+    def alive(self, moved: MovedSkin, settings: FaceSettings) -> LivingSkin:
+        """The skin that its motion has moved so, with these settings."""
+        parts = self.face.parts_on(moved.posed, settings)
+        return LivingSkin(**vars(moved), surface=self.surface, face=self.face, parts=parts)
 
-    def _expansion(self, posed: Floats) -> Floats:
-        """How much larger than at rest the refined skin is around each vertex, (N,)."""
-        return self.surface.spread(self.face.expansion(posed))
-
-    def _tissue(self, settings: FaceSettings) -> Floats:
+    def tissue(self, settings: FaceSettings) -> Floats:
         """Thickness of the tissue under every vertex at rest [m], (n,); found again only when it changes."""
         wanted = (settings.tissue, settings.painted_tissue)
         if self._thickness is None or self._thickness[0] != wanted:
