@@ -7,6 +7,7 @@ from scipy.spatial import ConvexHull
 
 from headstudio.head.head import Head, Landmarks
 from headstudio.head.mesh import TriangleMesh
+from headstudio.head.neck import NO_NECK
 
 SEMI_AXES = np.array([0.075, 0.11, 0.095])
 
@@ -57,4 +58,4 @@ def _head(directions: np.ndarray, faces: np.ndarray, shape) -> Head:
     )
     skin = TriangleMesh(shape(directions), faces)
     assert igl.is_edge_manifold(skin.faces)
-    return Head("bumpy", skin, np.ones(len(directions)), landmarks)
+    return Head("bumpy", skin, NO_NECK, landmarks)

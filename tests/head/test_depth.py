@@ -9,14 +9,16 @@ from headstudio.head.depth import SkinDepth
 from headstudio.head.frame import HeadFrame
 from headstudio.head.head import Head, Landmarks
 from headstudio.head.mesh import TriangleMesh
+from headstudio.head.neck import NO_NECK, Neck
 
 REST = HeadFrame()
+UP = np.array([0.0, 1.0, 0.0])
 NOWHERE = Landmarks(*np.zeros((14, 3)))
 
 
-def head_of(shape, weight=lambda vertices: np.ones(len(vertices))):
+def head_of(shape, neck=NO_NECK):
     mesh = TriangleMesh(np.asarray(shape.vertices), np.asarray(shape.faces))
-    return Head("a body", mesh, weight(mesh.vertices), NOWHERE)
+    return Head("a body", mesh, neck, NOWHERE)
 
 
 @pytest.fixture(scope="module")
@@ -46,11 +48,26 @@ def test_the_head_does_not_turn_against_its_own_hair(ball):
 
 def test_the_torso_turns_under_the_head():
     """A brick for a torso: hair in front of its long side is inside it after a quarter turn of the head."""
-    depth = SkinDepth(head_of(trimesh.creation.box(extents=(0.6, 0.4, 0.1)), lambda vertices: np.zeros(len(vertices))))
+    depth = SkinDepth(head_of(trimesh.creation.box(extents=(0.6, 0.4, 0.1)), Neck(UP, np.inf, 1.0)))
     hair = np.array([[0.0, 0.0, 0.2]])  # in front of the face
     assert depth.deepest(hair, REST) == 0.0
     quarter = HeadFrame(rotation=Rotation.from_euler("y", 90, degrees=True))  # now over the shoulder
     assert depth.deepest(hair, quarter) == pytest.approx(0.05)
+
+
+def test_the_neck_bends_between_them():
+    """A post that bends forward: points under its bent skin are as deep as they lie below it, at every height."""
+    post = trimesh.creation.cylinder(radius=0.05, height=0.5, sections=96)
+    post.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
+    post = post.subdivide_to_size(0.02)
+    head = head_of(post, Neck(UP, 0.05, 0.12))
+    frame = HeadFrame(rotation=Rotation.from_rotvec([0.6, 0.0, 0.0]), translation=np.array([0.0, 1.0, 0.0]))
+    bent = TriangleMesh(frame.skinned(head.skin.vertices, head.head_weight), head.skin.faces)
+    on_side = np.abs(head.skin.vertices[:, 1]) < 0.2
+    depth = SkinDepth(head)
+    for distance in (-0.003, 0.003):
+        points = frame.to_head(bent.vertices[on_side] + distance * bent.vertex_normals[on_side])
+        np.testing.assert_allclose(depth.signed_distance(points, frame), distance, atol=2e-4)
 
 
 def test_below_an_open_bust_nothing_is_inside():

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from headstudio.head.bust import cut_bust, head_weight
+from headstudio.head.bust import cut_bust
 from headstudio.head.head import Landmarks
 from headstudio.head.landmarks import find_landmarks, skull_base
 from headstudio.head.mesh import TriangleMesh
@@ -101,11 +101,11 @@ def test_looking_at_a_sphere_from_each_side():
 @pytest.mark.parametrize(("age", "masculine"), HUMANS)
 def test_head_turns_and_torso_stays(age, masculine):
     head = human(age, masculine)
-    weight = head_weight(head.skin.vertices, head.landmarks)
+    weight = head.head_weight
     assert weight.min() == 0.0
     assert weight.max() == 1.0
     named = np.array([getattr(head.landmarks, field.name) for field in dataclasses.fields(Landmarks)])
-    assert head_weight(named, head.landmarks).min() > 0.99
+    assert head.neck.share(named).min() > 0.99
     below = head.skin.vertices[:, 1] < head.landmarks.chin[1] - 0.13
     assert weight[below].max() == 0.0
     # No crease: along every edge the weight changes no faster than its smooth step over the neck does.

@@ -64,12 +64,12 @@ def ball_mesh(radius=RADIUS, centre=CENTRE, subdivisions=4):
 
 def ball_body():
     """The sphere under the dome, as hair feels it."""
-    return Body(ContactField.around(ball_mesh(), 0.014), None)
+    return Body(ContactField.around(ball_mesh(), 0.014))
 
 
 def no_body():
     """A body too far away to meet."""
-    return Body(ContactField.around(ball_mesh(centre=np.full(3, 1000.0), subdivisions=2), 0.014), None)
+    return Body(ContactField.around(ball_mesh(centre=np.full(3, 1000.0), subdivisions=2), 0.014))
 
 
 def hair_of(positions, directions, pairs, *, fixed=(0,), smoothing_length_links=0.02, mass=1e-4, arc_length=None):

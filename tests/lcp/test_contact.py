@@ -2,12 +2,17 @@
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from headstudio.head.contact import ContactField
 from headstudio.head.frame import HeadFrame
+from headstudio.head.mesh import TriangleMesh
+from headstudio.head.neck import Neck, turned_by
+from headstudio.head.parts import joined
+from headstudio.head.rows import row_dot
 from headstudio.lcp.body import Body
 from headstudio.lcp.contact import LONGEST_REACH, Touching, put_back, stop_at_body, stop_at_reach, touching
 
@@ -158,8 +163,8 @@ def test_falling_hair_stops_on_the_ball(hair, ball):
 
 
 def test_the_torso_stands_still_while_the_head_turns():
-    torso = ball_mesh(centre=np.array([0.0, -0.2, 0.1]))
-    body = Body(ContactField.around(ball_mesh(), 0.014), ContactField.around(torso, 0.014))
+    balls = joined([ball_mesh(), ball_mesh(centre=np.array([0.0, -0.2, 0.1]))])
+    body = Body(ContactField.around(balls, 0.014), Neck(np.array([0.0, 1.0, 0.0]), -0.02, 0.02))
     frame = HeadFrame(rotation=Rotation.from_rotvec([0.0, 0.8, 0.0]), angular_velocity=np.array([0.0, 3.0, 0.0]))
     on_torso = np.array([[0.02, -0.1, 0.1]])  # in the world
     seen = frame.to_head(on_torso)
@@ -173,6 +178,31 @@ def test_the_torso_stands_still_while_the_head_turns():
     np.testing.assert_allclose(velocity, (later.to_head(on_torso) - seen) / 1e-6, atol=1e-5)
     on_head = np.array([[0.0, 0.18, 0.0]])
     np.testing.assert_array_equal(body.planes(on_head, frame).velocity, 0)
+
+
+def test_planes_bend_with_the_neck():
+    """A post for a neck, nodded and turned: planes are as far from what is off its skin as the bent skin is."""
+    post = trimesh.creation.cylinder(radius=0.05, height=0.5, sections=64)
+    post.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, [1, 0, 0]))
+    post = post.subdivide_to_size(0.025)
+    neck = Neck(np.array([0.0, 1.0, 0.2]) / np.hypot(1.0, 0.2), 0.05, 0.12)
+    skin = TriangleMesh(np.asarray(post.vertices), np.asarray(post.faces))
+    body = Body(ContactField.around(skin, 0.007), neck)
+    turn = np.array([0.5, 0.3, 0.1])
+    frame = HeadFrame(rotation=Rotation.from_rotvec(turn), angular_velocity=np.array([1.0, 0.0, 0.0]))
+    bent = skin.moved(turned_by(skin.vertices, turn, neck.share(skin.vertices)))
+    on_side = np.abs(skin.vertices[:, 1]) < 0.2
+    off = bent.vertices[on_side] + 0.004 * bent.vertex_normals[on_side]
+    planes = body.planes(frame.to_head(off), frame)
+    assert np.median(np.abs(planes.distance - 0.004)) < 2e-4
+    assert np.abs(planes.distance - 0.004).max() < 0.002
+    facing = row_dot(frame.rotation.apply(planes.normals), bent.vertex_normals[on_side])
+    assert facing.min() > 0.97
+    share = neck.share(skin.vertices[on_side])
+    np.testing.assert_allclose(planes.velocity[share == 1], 0, atol=1e-5)
+    still = frame.to_head(off)[share == 0]
+    against_the_head = -np.cross(frame.rotation.inv().apply(frame.angular_velocity), still)
+    np.testing.assert_allclose(planes.velocity[share == 0], against_the_head, atol=1e-3)
 
 
 def no_touch(count):

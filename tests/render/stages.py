@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 
 from headstudio.head.head import Head, Landmarks, Part
 from headstudio.head.mesh import Floats, TriangleMesh
+from headstudio.head.neck import Neck
 from headstudio.lcp.model import HairModel
 from headstudio.scene.stage import HairOnStage, Stage
 
@@ -43,8 +44,7 @@ def egg_head() -> Head:
         mouth_left=on_face(0.022, -0.005),
         mouth_right=on_face(-0.022, -0.005),
     )
-    weight = np.clip((skin.vertices[:, 1] + 0.04) / 0.05, 0, 1)
-    return Head("egg", skin, weight, landmarks, parts)
+    return Head("egg", skin, Neck(np.array([0.0, 1.0, 0.0]), 0.01, 0.05), landmarks, parts)
 
 
 def _eye(place: Floats) -> Part:

@@ -30,6 +30,5 @@ def light_head(head: Head) -> Head:
     return replace(
         head,
         skin=TriangleMesh(skin.vertices[kept], place[faces]),
-        head_weight=head.head_weight[kept],
         expressions=expressions,
     )

@@ -7,7 +7,8 @@ from scipy import sparse
 
 from .clip import clip_by_surface
 from .head import Landmarks
-from .mesh import Floats, TriangleMesh
+from .mesh import TriangleMesh
+from .neck import Neck
 
 # The cut is a trough along the line of sight, in heights of the head: so far below the chin in the middle, and rising
 # to the sides with the square of the distance, so that it takes off the arms in the same sweep.
@@ -36,16 +37,12 @@ def head_height(landmarks: Landmarks) -> float:
     return float(landmarks.crown[1] - landmarks.chin[1])
 
 
-def head_weight(vertices: Floats, landmarks: Landmarks) -> Floats:
-    """How much of the head's rotation each vertex takes: 1 on the head, 0 on the torso, shape (n,).
-
-    Between them the weight falls smoothly along the neck, over half the height of the head. It starts at a plane under
-    the chin that rises to the back as the jaw does, so that the chin stays with the head.
-    """
+def neck_of(landmarks: Landmarks) -> Neck:
+    """Half as long as the head is high. It begins under the chin and rises to the back as the jaw does, so that the chin
+    stays with the head."""
     height = head_height(landmarks)
     jaw = landmarks.chin - landmarks.nape
     slope = np.clip(-jaw[1] / max(jaw[2], 1e-9), 0.0, 0.6)
     upward = np.array([0.0, 1.0, slope]) / np.hypot(1.0, slope)
     start = landmarks.chin - np.array([0.0, 0.03 * height, 0.0])
-    share = np.clip((start - vertices) @ upward / (_NECK_LENGTH * height), 0.0, 1.0)
-    return 1.0 - share * share * (3.0 - 2.0 * share)
+    return Neck(upward, float(start @ upward), _NECK_LENGTH * height)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .bust import cut_bust, head_weight
+from .bust import cut_bust, neck_of
 from .eyes import pupil
 from .head import Head, HeadError, Landmarks, Part
 from .landmarks import find_landmarks, skull_base
@@ -52,7 +52,7 @@ def head_from_mesh(mesh: TriangleMesh, repairs: Repairs, path: Path) -> Head:
     return Head(
         name=path.stem,
         skin=bust,
-        head_weight=head_weight(bust.vertices, landmarks),
+        neck=neck_of(landmarks),
         landmarks=landmarks,
         parts=parts,
         notes=(

@@ -24,16 +24,15 @@ _BASE = 0.15  # how far the body is taken to go on below the bust [m]
 _ON_SKIN = 1.2 * _VOXEL
 
 
-def hair_tight_surface(head: Head) -> tuple[TriangleMesh, Floats]:
-    """The closed surface [m] and, per vertex, how far it turns with the head, as Head.head_weight."""
+def hair_tight_surface(head: Head) -> TriangleMesh:
+    """The closed surface [m], at rest."""
     solid, origin = _voxels(head)
     depth = _smooth_depth(_closed(solid))
     surface = _surface(depth, origin)
     on_skin, distance = locator(head.skin).nearest(surface.vertices)
     nearest = on_skin.blend(head.skin.vertices, head.skin.faces)
     vertices = np.where((distance < _ON_SKIN)[:, None], nearest, surface.vertices)
-    weight = on_skin.blend(head.head_weight[:, None], head.skin.faces)[:, 0]
-    return surface.moved(vertices), weight
+    return surface.moved(vertices)
 
 
 def _voxels(head: Head) -> tuple[NDArray[np.bool_], Floats]:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from .mesh import Floats, Ints, TriangleMesh
+from .neck import Neck
 
 
 class HeadError(ValueError):
@@ -69,15 +71,20 @@ class Expression:
 class Head:
     """A bust in the head frame: origin at the base of the skull, +Y up, the face along +Z, metres.
 
-    head_weight: per vertex of the skin, 1 where the surface turns with the head, 0 on the torso, between on the neck,
-    shape (n,). notes: what was found and what was done to the source, a line each, for ``headstudio inspect``.
+    neck: where the turn of the head fades. notes: what was found and what was done to the source, a line each, for
+    ``headstudio inspect``.
     """
 
     name: str
     skin: TriangleMesh
-    head_weight: Floats
+    neck: Neck
     landmarks: Landmarks
     parts: tuple[Part, ...] = ()
     expressions: Mapping[str, Expression] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     from_file: Floats | None = None
+
+    @cached_property
+    def head_weight(self) -> Floats:
+        """1 where the skin turns with the head, 0 on the torso, between on the neck: per vertex, (n,)."""
+        return self.neck.share(self.skin.vertices)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from scipy import sparse
 
-from .bust import cut_bust, head_weight
+from .bust import cut_bust, neck_of
 from .eyes import eyeball, pupil
 from .head import Expression, Head, HeadError, Landmarks, Part
 from .lashes import lash_hairs
@@ -86,7 +86,7 @@ def makehuman(age: float = 0.2, masculine: float = 0.0) -> Head:
     return Head(
         name="makehuman",
         skin=skin,
-        head_weight=head_weight(skin.vertices, landmarks),
+        neck=neck_of(landmarks),
         landmarks=landmarks,
         parts=(*eyes, *mouth, *_lashes(base, vertices)),
         expressions=_expressions(folder, len(vertices), carry),

@@ -39,3 +39,8 @@ def row_unit(vectors: Floats, otherwise: Floats) -> Floats:
     """``vectors``, (n, 3), of length 1; where one vanishes, ``otherwise``."""
     length = row_length(vectors)[:, None]
     return np.where(length <= 1e-9, otherwise, vectors / np.maximum(length, 1e-9))
+
+
+def cross_matrix(a: Floats) -> Floats:
+    """The matrix of x -> a cross x, (3, 3)."""
+    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])

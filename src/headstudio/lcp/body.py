@@ -1,4 +1,4 @@
-"""The head and the torso as hair meets them: two rigid bodies, one turning on the other (thesis, section 3.5)."""
+"""Head, neck and torso as hair meets them (thesis, section 3.5)."""
 
 from __future__ import annotations
 
@@ -10,20 +10,21 @@ from ..head.contact import ContactField
 from ..head.frame import HeadFrame
 from ..head.hair_tight import hair_tight_surface
 from ..head.head import Head
-from ..head.mesh import Floats, TriangleMesh
-from ..head.rows import row_dot
-from .inertia import cross_matrix
+from ..head.mesh import Floats
+from ..head.neck import NO_NECK, Neck, turned_by
+from ..head.rows import cross_matrix, row_dot, row_length
 
 _VOXEL = 0.007
 _SLIDING_DISTANCE = 0.006
+_SAME = 1e-3  # shares of the turn that differ by less mean the same place
 
 
 @dataclass(frozen=True, eq=False)
 class Planes:
     """The body as n particles see it, in the head frame.
 
-    distance: d to the nearest plane of head or torso [m], infinite far from both, (n,). normals: its unit normal, zero far
-    from both, and velocity: that of the body there [m/s], (n, 3).
+    distance: d to the nearest plane [m], infinite far from all, (n,). normals: its unit normal, zero far from all, and
+    velocity: that of the body there [m/s], (n, 3).
     """
 
     distance: Floats
@@ -33,42 +34,52 @@ class Planes:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """Contact planes of the head, which stand still in the head frame, and of the torso, which turns against it."""
+    """The contact planes of a bust at rest, and the neck that bends them.
 
-    head: ContactField
-    torso: ContactField | None
+    The thesis has rigid bodies. Skin of the neck turns with a part of the head's turn (Head.neck), and hair lies on it: so
+    a particle is led back to where the place that it is in is at rest, and the plane that it finds there is bent.
+    """
+
+    surface: ContactField
+    neck: Neck = NO_NECK
 
     @classmethod
     def around(cls, head: Head, voxel: float = _VOXEL) -> Body:
-        """The planes of a head: neck and head up to half the turn of the neck, the rest of the neck and the torso below."""
-        surface, turning = hair_tight_surface(head)
-        weight = turning[surface.faces].mean(axis=1)
-        upper, lower = (TriangleMesh(surface.vertices, surface.faces[which]) for which in (weight >= 0.5, weight < 0.5))
-        return cls(
-            ContactField.around(upper, voxel),
-            ContactField.around(lower, voxel) if len(lower.faces) else None,
-        )
+        """The planes of a head with its neck and shoulders."""
+        return cls(ContactField.around(hair_tight_surface(head), voxel), head.neck)
 
     def planes(self, positions: Floats, frame: HeadFrame | None = None) -> Planes:
-        """The nearest plane of either body. positions: head frame [m], (n, 3).
+        """The nearest plane of the bent body. positions: head frame [m], (n, 3).
 
         frame: how far the head has turned on the torso, and how fast; None at rest.
         """
-        distance, normals = self.head.at(positions)
+        if frame is None or self.neck is NO_NECK:
+            distance, normals = self.surface.at(positions)
+            return Planes(distance, normals, np.zeros_like(positions))
+        standing = positions @ frame.axes.T
+        low = np.flatnonzero(self.neck.reaches(positions) | self.neck.reaches(standing))
+        turn, seen = frame.rotation.as_rotvec(), standing.take(low, axis=0)
+        # Between head and shoulders there may be a plane of either: as skin folds there, two places come to one.
+        share = self.neck.share_when_bent(seen, turn, 1.0)
+        other = self.neck.share_when_bent(seen, turn, 0.0)
+        rest = positions.copy()
+        rest[low] = turned_by(seen, turn, -share)
+        distance, normals = self.surface.at(rest)
+        two = np.flatnonzero(share - other > _SAME)
+        rest_of_other = turned_by(seen[two], turn, -other[two])
+        distance_of_other, normals_of_other = self.surface.at(rest_of_other)
+        nearer = distance_of_other < distance[low[two]]
+        two = two[nearer]
+        share[two], rest[low[two]] = other[two], rest_of_other[nearer]
+        distance[low[two]], normals[low[two]] = distance_of_other[nearer], normals_of_other[nearer]
+
+        bent = self.neck.bent_normals(rest[low], normals[low], turn)
+        length = np.maximum(row_length(bent), 1e-12)
+        distance[low] /= length
+        normals[low] = turned_by(bent / length[:, None], turn, share) @ frame.axes
+        spin = frame.angular_velocity @ frame.axes
         velocity = np.zeros_like(positions)
-        if self.torso is None:
-            return Planes(distance, normals, velocity)
-        if frame is None:
-            torso_distance, torso_normals = self.torso.at(positions)
-        else:
-            torso_distance, torso_normals = self.torso.at(positions @ frame.axes.T)
-            torso_normals = torso_normals @ frame.axes
-        nearer = np.flatnonzero(torso_distance < distance)
-        distance[nearer] = torso_distance[nearer]
-        normals[nearer] = torso_normals[nearer]
-        if frame is not None:
-            spin = frame.angular_velocity @ frame.axes
-            velocity[nearer] = positions[nearer] @ cross_matrix(spin)
+        velocity[low] = (1.0 - share)[:, None] * (positions[low] @ cross_matrix(spin))
         return Planes(distance, normals, velocity)
 
     def clearance(self, positions: Floats) -> Floats:

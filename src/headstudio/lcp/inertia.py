@@ -9,6 +9,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
+from ..head.rows import cross_matrix
 
 
 def apparent_acceleration(frame: HeadFrame, positions: Floats, velocities: Floats, gravity: float) -> Floats:
@@ -23,8 +24,3 @@ def apparent_acceleration(frame: HeadFrame, positions: Floats, velocities: Float
     turning = cross_matrix(spin)
     by_position = -cross_matrix(spin_change) - turning @ turning
     return falling + positions @ by_position.T + velocities @ (-2.0 * turning).T
-
-
-def cross_matrix(a: Floats) -> Floats:
-    """The matrix of x -> a cross x, (3, 3)."""
-    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])

@@ -11,11 +11,15 @@ import trimesh
 
 from ..head import Head, Landmarks, Part
 from ..mesh import Floats, TriangleMesh
+from ..neck import Neck
 from .anthropometry import measured
 from .eyes import EYE, EYE_AXIS, EYE_RADIUS
 from .skin import charted, mirrored, sculpted_half
 
 _MM = 1e-3
+# It begins at the line from chin to nape and ends at the collar.
+_RISE = float(np.hypot(1.0, 0.35))
+_NECK = Neck(np.array([0.0, 1.0, 0.35]) / _RISE, -54.0 * _MM / _RISE, 74.0 * _MM / _RISE)
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 
 
@@ -32,7 +36,7 @@ def mannequin() -> Head:
     head = Head(
         name="mannequin",
         skin=skin,
-        head_weight=_head_weight(vertices),
+        neck=_NECK,
         landmarks=_landmarks(skin),
         parts=(_eye(EYE, EYE_AXIS), _eye(EYE * _MIRROR, EYE_AXIS * _MIRROR)),
     )
@@ -45,13 +49,6 @@ def _description(head: Head) -> str:
         f"built-in mannequin after adult means of ANSUR II and NIOSH 2003: head {size['head_length']} long and "
         f"{size['head_breadth']} broad, pupils {size['interpupillary']} apart"
     )
-
-
-def _head_weight(vertices: Floats) -> Floats:
-    """1 above the line from chin to nape, 0 below the collar, smooth on the neck; vertices in mm."""
-    along = vertices[:, 1] + 0.35 * vertices[:, 2]
-    t = np.clip((along + 128.0) / 74.0, 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)
 
 
 def _landmarks(skin: TriangleMesh) -> Landmarks:
