@@ -4,11 +4,12 @@ import pytest
 
 from headstudio.wisp.accessories import Band, HairTie, Pin, Ribbon, accessory_mesh
 from headstudio.wisp.adornment import adorn
+from headstudio.wisp.elastics import elastics_of
 from headstudio.wisp.operations import Braid, Bun, Tie
-from headstudio.wisp.styling_settings import StylingSettings
+from headstudio.wisp.selection import Selection
 from headstudio.wisp.sweep import closed_tube, tube
 
-from .dressed import body
+from .dressed import body, hair
 
 WORN = [Band(), Pin(), Pin((0.0, 1.2, 0.3), (1.0, 0.0, 0.0)), Ribbon(), HairTie(), HairTie(direction=(0, -1.0, 0))]
 
@@ -47,11 +48,11 @@ def test_tubes_have_their_volume():
 
 
 def test_ties_and_braids_bring_their_elastics():
-    _, _, surroundings = body()
-    styling = StylingSettings(
-        accessories=(Pin(),), operations=(Tie(colour=(1.0, 0.0, 0.0)), Bun(), Braid(), Tie(elastic=False))
-    )
-    worn = adorn(styling, surroundings, 0.4)
+    _, scalp, surroundings = body()
+    operations = (Tie(colour=(1.0, 0.0, 0.0)), Bun(), Braid(Selection("left")), Tie(Selection("right"), elastic=False))
+    outlines = hair(scalp)
+    elastics = elastics_of(operations, outlines, surroundings, scalp.locate(outlines.roots))
+    worn = adorn((Pin(),), elastics, surroundings)
     assert len(worn) == 3
     assert worn[1].colour == (1.0, 0.0, 0.0)
     knot = surroundings.proportions.place(np.array(Tie().place))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..head.mesh import TriangleMesh
-from .accessories import accessory_mesh, ring
-from .hairdressing import elastic_of
-from .styling_settings import StylingSettings
+from .accessories import Accessory, accessory_mesh, ring
+from .elastics import Elastic
 from .surroundings import Surroundings
+
+_THICKNESS = 0.3  # of an elastic, in its radius
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,12 +21,13 @@ class Adornment:
     colour: tuple[float, float, float]
 
 
-def adorn(styling: StylingSettings, surroundings: Surroundings, longest: float) -> tuple[Adornment, ...]:
-    """Everything worn in hair of at most ``longest`` [m] that is styled by ``styling`` on the head of ``surroundings``."""
-    worn = [Adornment(accessory_mesh(item, surroundings), item.colour) for item in styling.accessories]
-    for operation in styling.operations:
-        elastic = elastic_of(operation, surroundings, longest)
-        if elastic is not None:
-            mesh = ring(elastic.middle, elastic.axis, elastic.radius, 0.3 * elastic.radius)
+def adorn(
+    accessories: Sequence[Accessory], elastics: Sequence[Elastic], surroundings: Surroundings
+) -> tuple[Adornment, ...]:
+    """Everything worn on the head of ``surroundings``: ``accessories``, and those of ``elastics`` that are seen."""
+    worn = [Adornment(accessory_mesh(item, surroundings), item.colour) for item in accessories]
+    for elastic in elastics:
+        if elastic.colour is not None:
+            mesh = ring(elastic.middle, elastic.axis, elastic.radius, _THICKNESS * elastic.radius)
             worn.append(Adornment(mesh, elastic.colour))
     return tuple(worn)

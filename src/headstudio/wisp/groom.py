@@ -112,7 +112,7 @@ def groomed_hairdo(
         colours = shades[np.repeat(np.arange(shown.count), shown.counts), np.rint(along * (_SHADES - 1)).astype(int)]
     wisps = np.zeros(shown.count, dtype=np.int32)
     made = replace(shown, radius=radius, colour=colours, wisp=wisps, stands_for=strands.count / max(shown.count, 1))
-    worn = adorn(replace(styling, operations=()), surroundings, 0.0)
+    worn = adorn(styling.accessories, (), surroundings)
     return Hairdo(made, _NO_WISPS, np.zeros((0, 1, 3), dtype=np.float32), DeformReport(0, 0, 0), worn)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -14,6 +15,7 @@ from ..head.scalp import Scalp
 from .chords import keep_chords_outside
 from .curves import LengthDistribution
 from .cutting import Blade, cut_strands
+from .elastics import Elastic
 from .follicles import Regions, scatter_strands
 from .hairline import fineness
 from .markov import Singles
@@ -47,9 +49,14 @@ class Sown:
 
 
 def member_strands(
-    masters: Masters, sown: Sown, wisp: WispSettings, surroundings: Surroundings, blades: list[Blade]
+    masters: Masters,
+    sown: Sown,
+    wisp: WispSettings,
+    surroundings: Surroundings,
+    blades: Sequence[Blade],
+    elastics: Sequence[Elastic],
 ) -> Singles:
-    """Points of all member strands outside the head [m], (S, points, 3), cut with the ``blades``."""
+    """Points of all member strands outside the head [m], (S, points, 3), cut with the ``blades`` and held by ``elastics``."""
     count = len(sown.owner)
     lengths = LengthDistribution.of(wisp).sample(np.random.default_rng([wisp.seed, 4]).random(count))
     cuts = Cuts.of(masters, wisp.points)
@@ -67,8 +74,10 @@ def member_strands(
         )
         grown = member_points(masters, cuts, own, offsets, lengths[here])
         # Last of all, since what is cut is drawn anew with straight ways between fewer places.
-        cut = cut_strands(grown, own, blades)
-        outside = surroundings.keep_outside(cut.reshape(-1, 3), _CLEARANCE).reshape(cut.shape)
+        laid = cut_strands(grown, own, blades)
+        for elastic in elastics:
+            laid = elastic.pressed(laid, own)
+        outside = surroundings.keep_outside(laid.reshape(-1, 3), _CLEARANCE).reshape(laid.shape)
         points[here] = keep_chords_outside(surroundings, outside, _CLEARANCE)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -15,6 +15,7 @@ from .adornment import Adornment, adorn
 from .colour import strand_colours
 from .cutting import Blade
 from .deform import Deformer, DeformReport
+from .elastics import Elastic, elastics_of
 from .follicles import Regions, spread_wisps
 from .growth import Sown, member_strands
 from .maps import density_map
@@ -58,11 +59,13 @@ class _Spread:
 
 @dataclass(frozen=True, eq=False)
 class _Laid:
-    """Wisps as they lie. outlines: after they were bent."""
+    """Wisps as they lie. outlines: after they were bent. uv: their roots on the scalp square, (W, 2)."""
 
     spread: _Spread
     outlines: Outlines
     report: DeformReport
+    uv: Floats
+    elastics: tuple[Elastic, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,12 +150,12 @@ class Stylist:
         grown = step(
             "grown",
             (laid, sown, wisp, styling.cuts),
-            lambda: _grow(laid, sown, scalp, surroundings, wisp, styling, announce),
+            lambda: _grow(laid, sown, surroundings, wisp, styling, announce),
         )
         worn = step(
             "worn",
-            (spread, surroundings, styling.accessories, styling.operations),
-            lambda: adorn(styling, surroundings, float(spread.rest.counts.max(initial=0) * spread.rest.segment)),
+            (laid, surroundings, styling.accessories),
+            lambda: adorn(styling.accessories, laid.elastics, surroundings),
         )
         coloured = replace(grown.strands, colour=colours)
         return Hairdo(coloured, laid.outlines, grown.controls, laid.report, worn)
@@ -167,7 +170,9 @@ class Stylist:
     ) -> _Laid:
         """Let the wisps lie."""
         announce("flow")
-        return _Laid(spread, *self._deformer.deform(spread.rest, surroundings, styling, scalp))
+        outlines, report = self._deformer.deform(spread.rest, surroundings, styling, scalp)
+        uv = scalp.locate(spread.rest.roots)
+        return _Laid(spread, outlines, report, uv, elastics_of(styling.operations, outlines, surroundings, uv))
 
 
 def _spread(scalp: Scalp, wisp: WispSettings, announce: Callable[[str], None]) -> _Spread:
@@ -181,7 +186,6 @@ def _spread(scalp: Scalp, wisp: WispSettings, announce: Callable[[str], None]) -
 def _grow(
     laid: _Laid,
     sown: Sown,
-    scalp: Scalp,
     surroundings: Surroundings,
     wisp: WispSettings,
     styling: StylingSettings,
@@ -195,9 +199,8 @@ def _grow(
     masters = Masters(
         controls, details.per_segment, outlines.radii.astype(np.float32), laid.spread.lengths / outlines.segment
     )
-    uv = scalp.locate(laid.spread.rest.roots)
-    blades = [Blade.of(cut, surroundings.proportions, uv) for cut in styling.cuts]
-    points = member_strands(masters, sown, wisp, surroundings, blades)
+    blades = [Blade.of(cut, surroundings.proportions, laid.uv) for cut in styling.cuts]
+    points = member_strands(masters, sown, wisp, surroundings, blades, laid.elastics)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
     made = Strands.of_equal_count(points, sown.fineness[:, None] * shaft, None, sown.owner.astype(np.int32))
     return _Grown(replace(made, stands_for=wisp.strands / max(len(sown.owner), 1)), controls)

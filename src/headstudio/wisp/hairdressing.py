@@ -20,6 +20,7 @@ from .surroundings import Surroundings
 # diagonals of the skull.
 _TAKE_UP, _TO_KNOT = 1.25, 1.0
 _DOWN = np.array([[0.0, -1.0, 0.0]])
+_BRAID_END = 1.2  # within how many radii of a lock the end of a plait is gathered
 _OFF_SKIN = 0.002  # a tie's edge stays so far off the skin [m]
 
 
@@ -63,7 +64,7 @@ def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tupl
     width = 0.31 * thickness * operation.groups
     locks = plait(middle, side, front, operation.groups, width, 0.55 * thickness, operation.period)
     gather = PointConstraint(knot, 1.5 * thickness, 1.0, surroundings)
-    end = PointConstraint(middle[-1], 1.2 * thickness)
+    end = PointConstraint(middle[-1], _BRAID_END * thickness)
     return tuple(
         Queue(operation.selection, (gather, TrajectoryConstraint(lock, thickness), end), part, operation.groups)
         for part, lock in enumerate(locks)
@@ -106,24 +107,27 @@ def _updo(operation: Updo, surroundings: Surroundings, longest: float) -> tuple[
 
 
 @dataclass(frozen=True, eq=False)
-class Elastic:
-    """An elastic around a knot: its middle [m], (3,), which way the hair runs in it, (3,), its radius [m], its colour."""
+class Grip:
+    """Where an operation holds hair together: the middle [m], (3,), which way hair runs there, (3,), the radius within which
+    it is held [m], and the colour of the elastic that holds it, None when none is seen.
+    """
 
     middle: Floats
     axis: Floats
     radius: float
-    colour: tuple[float, float, float]
+    colour: tuple[float, float, float] | None
 
 
-def elastic_of(operation: Operation, surroundings: Surroundings, longest: float) -> Elastic | None:
-    """The elastic of ``operation``; None when it has none that is seen."""
-    if isinstance(operation, Tie) and operation.elastic:
+def grip_of(operation: Operation, surroundings: Surroundings, longest: float) -> Grip | None:
+    """Where ``operation`` holds hair of at most ``longest`` [m] together as an elastic does; None when it does not."""
+    if isinstance(operation, Tie):
         point, away = _knot(surroundings, operation.place, operation.tolerance)
-        return Elastic(point, away, operation.tolerance, operation.colour)
-    if isinstance(operation, Braid) and operation.elastic:
+        return Grip(point, away, operation.tolerance, operation.colour if operation.elastic else None)
+    if isinstance(operation, Braid):
         middle = _braid_path(operation, surroundings, longest)[1]
         axis = row_unit((middle[-1] - middle[-3])[None], otherwise=_DOWN)[0]
-        return Elastic(middle[-1], axis, 1.2 * operation.thickness, operation.colour)
+        colour = operation.colour if operation.elastic else None
+        return Grip(middle[-1], axis, _BRAID_END * operation.thickness, colour)
     return None
 
 
