@@ -17,11 +17,12 @@ from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
 from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, lost_in_strands, sent_on
 from .fibre_textures import FibreTextures
 from .light_volume import LightVolume, grid_around
+from .occlusion import Occluder
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky_light import Sky, SkyLight
 from .strand_detail import StrandDetail, StrandSurvey, thinned
-from .strand_points import POINT_ROW, PackedStrands, StrandTextures, pack, piece_indices, strip_indices
+from .strand_points import POINT_ROW, PackedStrands, StrandTextures, pack, piece_indices, piece_reaches, strip_indices
 from .targets import LightTargets
 from .view import View, parallel_view
 
@@ -30,6 +31,9 @@ _DEPTH_LEVELS = 65535
 # Pixels beside a strand whose middles are nearer to it than this are covered in part. Those of them that have several
 # samples must be drawn to the last: their cover is shared by all.
 _ROOM, _TO_SAMPLE = 0.5, 0.75
+
+# Pieces no longer than this part of them may be found to be hidden.
+_MOST_PIECES = 0.95
 
 # No fewer strands are drawn, however small they are seen.
 _FEWEST = 2_000
@@ -93,6 +97,9 @@ class StrandHair:
         self._for_sky = self._light_strips(packed, min(detail.sky_strands, self._lit_by), step, stride)
         self._pieces, amid, self._piece_ends = piece_indices(packed.first, self.shown)
         self._amid = packed.points[amid, :3]
+        self._reaches = piece_reaches(packed, amid)
+        self._reach = float(np.quantile(self._reaches, _MOST_PIECES)) if len(amid) else 0.0
+        self._thickest = float(packed.points[:, 3].max(initial=0.0))
         self._sorted = context.buffer(reserve=max(self._pieces.nbytes, 4))
         self._sorted_array = context.vertex_array(programs.ribbon, [], self._sorted)
         self._shades = context.texture((POINT_ROW, self._textures.rows), 4, dtype="f2")
@@ -232,20 +239,34 @@ class StrandHair:
             self._shade_target.viewport = (0, 0, POINT_ROW, max(rows, 1))
             self._programs.screens.draw("shade", **uniforms, **self.light_uniforms(8), **self._soft.bind(11))
 
-    def draw(self, view: View, frame: HeadFrame, height: int, steps: int = 1, samples: int = 1) -> Iterator[int]:
+    def draw(
+        self,
+        view: View,
+        frame: HeadFrame,
+        height: int,
+        steps: int = 1,
+        samples: int = 1,
+        occluder: Occluder | None = None,
+    ) -> Iterator[int]:
         """Strands in order, farthest first, over the framebuffer in use, ``height`` pixels high, so many samples a pixel.
 
-        They are drawn in so many steps: yields 1, 2, 3 ... after each.
+        They are drawn in so many steps: yields 1, 2, 3 ... after each. What ``occluder`` hides is left out.
         """
         eye = frame.rotation.inv().apply(view.eye - frame.translation)
-        pieces = int(self._piece_ends[self._drawn])
-        away = np.linalg.norm(self._amid[:pieces] - eye.astype(np.float32), axis=1)
+        drawn = slice(int(self._piece_ends[self._drawn]))
+        amid, pieces = self._amid[drawn], self._pieces[drawn]
+        away = np.linalg.norm(amid - eye.astype(np.float32), axis=1)
         low, high = (float(away.min()), float(away.max())) if len(away) else (0.0, 1.0)
+        if occluder is not None:
+            reach = self._reach + self.widening(self._drawn) * self._thickest
+            # The few pieces that are longer than nearly all others are drawn anyway.
+            seen = (self._reaches[drawn] > self._reach) | ~occluder.hides(amid, _pose(frame), reach)
+            away, pieces = away[seen], pieces[seen]
         # Whole numbers are sorted several times as fast, and 65,536 levels are some hundredths of a millimetre.
         levels = ((high - away) * (_DEPTH_LEVELS / max(high - low, 1e-6))).astype(np.uint16)
         order = np.argsort(levels, kind="stable")
-        self._sorted.write(self._pieces[order])
-        bounds = np.linspace(0, len(order), steps + 1).astype(int) * self._pieces.shape[1]
+        self._sorted.write(pieces[order])
+        bounds = np.linspace(0, len(order), steps + 1).astype(int) * pieces.shape[1]
         for step, (start, end) in enumerate(pairwise(bounds.tolist())):
             self._use(view, height, samples)
             if end > start:

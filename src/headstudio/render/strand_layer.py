@@ -14,6 +14,7 @@ from ..scene.stage import Stage
 from ..wisp.strands import Strands
 from .deep_opacity import OpacityPrograms
 from .fibre import Fibre, colour_absorption
+from .occlusion import Occluder
 from .scene_block import linear, sky_and_ground
 from .skin_paint import coarse_faces
 from .sky_light import Sky, SkyLight, SkyPrograms
@@ -75,11 +76,14 @@ class StrandLayer:
         maps.map.use(1)
         strands.look_from(view, stage.frame, canvas.height)
         strands.shade(strand_material(look))
+        depth = canvas.depth_attachment
+        # Depth of several samples a pixel is in no texture, and cannot be read.
+        occluder = Occluder(depth, view) if isinstance(depth, moderngl.Texture) else None
         with self._context.scope(canvas, moderngl.BLEND | moderngl.DEPTH_TEST):
             canvas.depth_mask = False
             self._context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             steps = STEPS if progress else 1
-            for done in strands.draw(view, stage.frame, canvas.height, steps, canvas.samples):
+            for done in strands.draw(view, stage.frame, canvas.height, steps, canvas.samples, occluder):
                 if progress:
                     self._context.finish()
                     if not progress(done, steps):

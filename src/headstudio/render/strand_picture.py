@@ -18,6 +18,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats, TriangleMesh
 from ..head.refine import ShadedMesh, refine_near
 from ..wisp.strands import Strands
+from .occlusion import Occluder
 from .plain_body import PlainBody, PlainBodyPrograms
 from .scene_block import SCENE_DTYPE
 from .screen import ScreenPasses
@@ -116,7 +117,8 @@ def strand_picture(
     with context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
         targets.scene.depth_mask = False
         context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        for step in hair.draw(view, HeadFrame(), size * fineness, STEPS):
+        occluder = Occluder(targets.depth, view)
+        for step in hair.draw(view, HeadFrame(), size * fineness, STEPS, occluder=occluder):
             context.finish()
             if progress is not None and not progress(step, STEPS):
                 return None

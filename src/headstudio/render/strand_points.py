@@ -102,6 +102,18 @@ def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint
     return strips, np.minimum(start + PIECE // 2, last), np.concatenate([[0], np.cumsum(pieces)])
 
 
+def piece_reaches(packed: PackedStrands, amid: Ints) -> Singles:
+    """How far from the points ``amid``, (k,), the pieces around them reach [m], (k,)."""
+    strand = np.searchsorted(packed.first, amid, side="right") - 1
+    low, high = packed.first[strand], packed.first[strand + 1] - 1
+    middle = packed.points[amid, :3]
+    farthest = np.zeros(len(amid), np.float32)
+    for step in (*range(-PIECE // 2, 0), *range(1, PIECE // 2 + 1)):
+        away = packed.points[np.clip(amid + step, low, high), :3] - middle
+        np.maximum(farthest, np.einsum("ij,ij->i", away, away), out=farthest)
+    return np.sqrt(farthest)
+
+
 class StrandTextures:
     """The arrays of packed strands as textures of POINT_ROW points a row."""
 

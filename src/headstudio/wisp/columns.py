@@ -3,17 +3,22 @@ numbers at a time. So the styler lays its wisps."""
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ..head.mesh import Floats
+
+RealT = TypeVar("RealT", np.float32, np.float64)
 
 _SHORTEST = 1e-9
 
 
-def dot(one: Floats, other: Floats) -> Floats:
-    """The products of vectors, (3, k) each: (k,)."""
-    products: Floats = np.einsum("ij,ij->j", one, other)
-    return products
+def dot(one: NDArray[RealT], other: NDArray[RealT]) -> NDArray[RealT]:
+    """The products of vectors, (3, k) each: (k,). Of some hundreds einsum takes longer to begin than to sum up."""
+    x, y, z = one * other
+    return x + y + z
 
 
 def cross(one: Floats, other: Floats) -> Floats:

@@ -53,7 +53,7 @@ class DensityField:
         """rho, (k,), and its gradient [1/m], (k, 3), at ``points`` [m], (k, 3)."""
         density, slope = self.grid.value_and_gradient(self.hair, points)
         distance, outward = self.surroundings.distance_and_gradient(points)
-        near = np.flatnonzero(distance < _SKIN_DEPTH)
+        near = (distance < _SKIN_DEPTH).nonzero()[0]
         if len(near):
             density[near] += np.minimum(1 - distance[near] / np.float32(_SKIN_DEPTH), 1)
             slope.T[:, near] -= outward.T[:, near] / np.float32(_SKIN_DEPTH)

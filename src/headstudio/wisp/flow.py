@@ -125,7 +125,7 @@ class Flow:
             each.take(wisps, axis=1) for each in (self._ends, self._next_across, self._next_along)
         )
         pull = force.T
-        rooted = np.flatnonzero(joint == 0)
+        rooted = (joint == 0).nonzero()[0]
         if len(rooted):
             combed = self._combed(start[:, rooted], straight[:, rooted], pull[:, rooted])
             across[:, rooted] = turn(across[:, rooted], straight[:, rooted], combed)
@@ -142,7 +142,7 @@ class Flow:
         self._add(wisps, place, start + 0.5 * step, turned, direction, 1.0)
         self._ends[:, wisps] = start + step
         # An ear lifts hair as long as it lies on it, and does not throw it outward: what it bends springs back.
-        lifted = np.flatnonzero(at_ears(self._density.surroundings.proportions.measure(start.T)))
+        lifted = at_ears(self._density.surroundings.proportions.measure(start.T)).nonzero()[0]
         if len(lifted):
             direction[:, lifted] = wanted[:, lifted]
             turned[:, lifted] = turn(across[:, lifted], straight[:, lifted], wanted[:, lifted])
@@ -198,7 +198,7 @@ class Flow:
         """
         segment = self.outlines.segment
         distance, outward = self._skin(start + segment * direction)
-        low = np.flatnonzero(distance < clearance)
+        low = (distance < clearance).nonzero()[0]
         if len(low) == 0:
             return direction
         direction = direction.copy()
@@ -213,7 +213,7 @@ class Flow:
             if correction == _SLIDES - 1:
                 break
             distance, outward = self._skin(start + segment * turned)
-            deep = np.flatnonzero(distance < clearance - _SLACK)
+            deep = (distance < clearance - _SLACK).nonzero()[0]
             if len(deep) == 0:
                 break
             low, start, clearance = low[deep], start[:, deep], clearance[deep]
@@ -229,7 +229,7 @@ class Flow:
         """Directions bent along the density gradient while rho exceeds ``ceiling`` (eq. 6), and no more than _BENDS times."""
         half = 0.5 * self.outlines.segment
         density, slope = self._density.at((start + half * direction).T)
-        colliding = np.flatnonzero(density > ceiling)
+        colliding = (density > ceiling).nonzero()[0]
         self.tally.colliding += len(colliding)
         if len(colliding) == 0:
             return direction
@@ -243,7 +243,7 @@ class Flow:
             better = here < least
             least = np.where(better, here, least)
             best[:, colliding[better]] = bent[:, better]
-            still = np.flatnonzero(here > ceiling[colliding])
+            still = (here > ceiling[colliding]).nonzero()[0]
             colliding, bent, least, slope = colliding[still], bent[:, still], least[still], slope[still]
             if len(colliding) == 0:
                 break
@@ -251,5 +251,6 @@ class Flow:
         return best
 
     def _add(self, wisps: Ints, place: Ints, middles: Floats, across: Floats, along: Floats, sign: float) -> None:
-        both = np.stack([across, cross(along, across)], axis=1)
+        both = np.empty((3, 2, len(wisps)))
+        both[:, 0], both[:, 1] = across, cross(along, across)
         self._density.add(middles, both, self._radii.take(place), sign * self._amounts[wisps])

@@ -113,6 +113,7 @@ class Grid:
 
 def corner_weights(at: Singles) -> Singles:
     """Trilinear weights of the eight corners, (8, k), at places inside cells, (3, k)."""
-    sides = np.stack([1 - at, at])
-    x, y, z = sides[:, 0], sides[:, 1], sides[:, 2]
+    x, y, z = sides = np.empty((3, 2, at.shape[1]), at.dtype)
+    np.subtract(1, at, out=sides[:, 0])
+    sides[:, 1] = at
     return (x[:, None, None] * y[None, :, None] * z[None, None]).reshape(8, -1)

@@ -15,6 +15,7 @@ from ..head.head import Head
 from ..head.locate import Locator
 from ..head.mesh import Floats, TriangleMesh
 from ..head.sampling import sample_surface
+from .columns import dot
 from .ears import at_ears
 from .grid import Grid
 from .proportions import Proportions
@@ -66,8 +67,7 @@ class Surroundings:
         """Both at once: (k,) [m] and unit vectors, (k, 3)."""
         distance, gradient = self.skin_grid.value_and_gradient(self.distances, points)
         columns = gradient.T
-        length = np.sqrt(np.einsum("ij,ij->j", columns, columns))
-        columns /= np.maximum(length, np.float32(1e-6))
+        columns /= np.maximum(np.sqrt(dot(columns, columns)), np.float32(1e-6))
         return distance, gradient
 
     def keep_outside(self, points: Singles, margin: float) -> Singles:
@@ -112,7 +112,7 @@ class Surroundings:
         """
         gradient = self.skin_grid.value_and_gradient(self._without_leaves, points)[1]
         columns = gradient.T
-        columns /= np.maximum(np.sqrt(np.einsum("ij,ij->j", columns, columns)), np.float32(1e-6))
+        columns /= np.maximum(np.sqrt(dot(columns, columns)), np.float32(1e-6))
         return gradient
 
     @cached_property
