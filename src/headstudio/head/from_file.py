@@ -12,6 +12,7 @@ from .eyes import pupil
 from .head import Head, HeadError, Landmarks, Part
 from .landmarks import find_landmarks, skull_base
 from .mesh import Floats, TriangleMesh
+from .mouth import with_mouth
 from .orient import Stance, find_stance
 from .parts import joined, pieces_of, sort_pieces
 from .profile import midline
@@ -49,7 +50,7 @@ def head_from_mesh(mesh: TriangleMesh, repairs: Repairs, path: Path) -> Head:
     body = joined([skin, *found.skin])
     bust, _ = cut_bust(body.moved(body.vertices - origin), landmarks)
     parts = tuple(_moved(part, -origin) for part in found.parts)
-    return Head(
+    head = Head(
         name=path.stem,
         skin=bust,
         neck=neck_of(landmarks),
@@ -66,6 +67,7 @@ def head_from_mesh(mesh: TriangleMesh, repairs: Repairs, path: Path) -> Head:
         ),
         from_file=_placement(stance, unit.metres, origin),
     )
+    return with_mouth(head)
 
 
 def _find_head(pieces: list[TriangleMesh], name: str) -> tuple[TriangleMesh, list[TriangleMesh], Stance]:

@@ -214,8 +214,10 @@ class Face:
         moved[self._jawed] = True
         for lids in self._lids.values():
             moved[lids.vertices] = True
-        faces: Ints = self.head.skin.faces[moved[self.head.skin.faces].any(axis=1)]
-        return faces
+        faces = self.head.skin.faces
+        # What is stretched to line an open mouth says nothing of the skin beside it.
+        found: Ints = faces[moved[faces].any(axis=1) & ~(self._jaw.hollow[faces] > 0).any(axis=1)]
+        return found
 
 
 def _strengths(settings: FaceSettings) -> dict[tuple[str, str], float]:

@@ -1,8 +1,8 @@
 """The lower jaw: a hinge in front of the ears that takes chin, lower lip, lower teeth and tongue along.
 
 How much of its turn a point of the skin takes is 1 where the jawbone carries it and 0 where the skull does; between them
-it spreads over the surface as a harmonic function. Upper and lower lip meet in space and not on the surface, so a mouth
-that is open in the mesh parts, and one that is a groove stretches at the bottom of it.
+it spreads over the surface as a harmonic function, led along the lips. Upper and lower lip meet in space and not on the
+surface, so a mouth that is open in the mesh parts, and one that is a groove stretches at the bottom of it.
 """
 
 from __future__ import annotations
@@ -11,15 +11,13 @@ from dataclasses import dataclass
 
 import igl
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
-from scipy.ndimage import median_filter
 from scipy.sparse.linalg import splu
 from scipy.spatial.transform import Rotation
 
-from ..head.head import Head, Landmarks, Part
-from ..head.locate import locator
+from ..head.head import Head, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
+from ..head.mouth import lip_seam, seen_from_front
 
 # The hinge lies in front of the ear hole by this part of the height of the head.
 _HINGE_FORWARD = 0.05
@@ -33,25 +31,19 @@ _NECK = 1.6
 _CARRIED_FROM = 0.55
 # While the mouth opens the joint glides forward, per radian, as a part of the height of the head.
 _GLIDE = 0.06
-# The seam between the lips is looked for within this part of the half width of the mouth, above and below the corners.
-_SEAM_REACH = 0.45
-_COLUMNS = 25
-_LEVELS = 61
-# A lip belongs to its bone beyond this distance from the seam, and in this middle part of it; both in half widths of the
-# mouth. The corners hang between the bones.
-_LIP_MARGIN = 0.07
-_LIP_MIDDLE = 0.6
+# Lips are led at this distance from the seam, in half widths of the mouth: in the middle each by its own bone, towards the
+# corners, which hang between the bones, ever more by both, so that an open mouth is round.
+_LIP = 0.07, 0.3
 # What is hidden from the front by more than this [m] is no outside of a lip.
 _HIDDEN = 0.0008
-# Skin stretched between the lips goes back by this part of how far they part.
-_HOLLOW = 0.8
+# Skin stretched between the lips goes back by so many times how far they part, so that teeth are before it; what lies as
+# far behind the lips as this at rest, in half widths of the mouth, is a mouth already.
+_HOLLOW = 3.0
+_DEEP = 0.2, 0.8
 # So many times how deep the mouth is, is evened out along edges.
-_EVENED = 10
+_EVENED = 3
 # Keeps pieces of the skin that touch neither bone where they are.
 _LOOSE = 1e-9
-
-
-Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,27 +90,10 @@ def find_jaw(head: Head) -> Jaw:
     forward = forward / np.linalg.norm(forward)
     hinge = 0.5 * (marks.left_tragus + marks.right_tragus) + _HINGE_FORWARD * height * forward
     glide = _GLIDE * height * forward
-    weight = _spread(head.skin, *_carried(head, hinge, axis))
-    hollow = _hollow(head, hinge, weight)
+    carried, gap = _carried(head, hinge, axis)
+    weight = _smooth(_spread(head.skin, carried))
+    hollow = _hollow(head, hinge, weight, gap)
     return Jaw(hinge, axis, glide, weight, hollow, _evened(head.skin, hollow))
-
-
-def lip_seam(skin: TriangleMesh, marks: Landmarks) -> Floats:
-    """Where the lips meet as seen from the front: points (x, y) from the right corner to the left [m], (25, 2)."""
-    x = np.linspace(marks.mouth_right[0], marks.mouth_left[0], _COLUMNS)
-    share = np.linspace(0.0, 1.0, _COLUMNS)
-    corner = (1 - share) * marks.mouth_right[1] + share * marks.mouth_left[1]
-    reach = _SEAM_REACH * 0.5 * float(np.linalg.norm(marks.mouth_left - marks.mouth_right))
-    offset = np.linspace(-reach, reach, _LEVELS)
-    across = np.stack(np.broadcast_arrays(x[:, None], corner[:, None] + offset), axis=2)
-    depth = _seen_from_front(skin, across.reshape(-1, 2)).reshape(_COLUMNS, _LEVELS)
-    # The lips meet in the deepest hollow between two bulges.
-    below = np.maximum.accumulate(depth, axis=1)
-    above = np.maximum.accumulate(depth[:, ::-1], axis=1)[:, ::-1]
-    hollow = np.minimum(below, above) - depth
-    found = np.where(hollow.max(axis=1) > 0, offset[hollow.argmax(axis=1)], 0.0)
-    found[[0, -1]] = 0.0
-    return np.stack([x, corner + median_filter(found, 5, mode="nearest")], axis=1)
 
 
 def lower_share(part: Part, jaw_level: float) -> Floats:
@@ -128,8 +103,10 @@ def lower_share(part: Part, jaw_level: float) -> Floats:
     return (levels[pieces] < jaw_level).astype(np.float64)
 
 
-def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Mask, Mask]:
-    """Which vertices the skull keeps, and which the jawbone takes along: two masks, (n,) each."""
+def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Floats, Floats]:
+    """How far the jawbone takes every vertex along, (n,): 0 for what the skull keeps, 1 for what the jaw does, between them
+    for lips; nan for what hangs between all these. And how far the lips part before skin that hangs between them, 0 at the
+    corners to 1, (n,); 0 for all else."""
     marks, points = head.landmarks, head.skin.vertices
     seam = lip_seam(head.skin, marks)
     forward = np.cross(axis, np.array([0.0, 1.0, 0.0]))
@@ -144,38 +121,35 @@ def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Mask, Mask]:
 
     skull = (ahead < 0) | (angle < corner_angle + _CHEEK[0]) | (angle > chin_angle + _THROAT[1]) | (distance > _NECK)
     jawbone = far & (angle > corner_angle + _CHEEK[1]) & (angle < chin_angle + _THROAT[0])
+    carried = np.where(skull, 0.0, np.where(jawbone, 1.0, np.nan))
     half_width = 0.5 * (seam[-1, 0] - seam[0, 0])
     beside = np.abs(points[:, 0] - 0.5 * (seam[-1, 0] + seam[0, 0])) / half_width
     index = np.nonzero((beside < 1.0) & (np.abs(angle - corner_angle) < 2.0 * _CHEEK[1]) & far)[0]
     over = (points[index, 1] - np.interp(points[index, 0], seam[:, 0], seam[:, 1])) / half_width
-    outside = points[index, 2] > _seen_from_front(head.skin, points[index, :2]) - _HIDDEN
-    held = outside & (beside[index] < _LIP_MIDDLE)
+    outside = points[index, 2] > seen_from_front(head.skin, points[index, :2]) - _HIDDEN
+    parting = 1.0 - beside[index] ** 3
     # Neither bone holds what lines the mouth: it hangs between the lips.
-    lining = index[~outside]
-    skull[lining] = jawbone[lining] = False
-    skull[index[held & (over > _LIP_MARGIN)]] = True
-    jawbone[index[held & (over < -_LIP_MARGIN)]] = True
-    return skull, jawbone & ~skull
+    carried[index[~outside]] = np.nan
+    lip = outside & (np.abs(over) > _LIP[0]) & (np.abs(over) < _LIP[1])
+    carried[index[lip]] = 0.5 - 0.5 * (np.sign(over) * parting)[lip]
+    gap = np.zeros(len(points))
+    lining = np.abs(over) < np.where(outside, _LIP[0], _LIP[1]) * np.minimum(2.0 * parting, 1.0)
+    gap[index[lining]] = parting[lining]
+    return carried, gap
 
 
-def _seen_from_front(skin: TriangleMesh, across: Floats) -> Floats:
-    """How far forward the skin reaches at each (x, y), (k, 2) [m], (k,); its hindmost point where it has a hole."""
-    back, front = skin.bounds[:, 2] + [0.0, 0.1]
-    starts = np.column_stack([across, np.full(len(across), front)])
-    met = locator(skin).first_hit(starts, np.broadcast_to([0.0, 0.0, -1.0], starts.shape))
-    return np.maximum(front - met, back)
-
-
-def _hollow(head: Head, hinge: Floats, weight: Floats) -> Floats:
-    """How far back skin goes per radian [m], (n,): most half way between the lips, nothing at the corners."""
+def _hollow(head: Head, hinge: Floats, weight: Floats, gap: Floats) -> Floats:
+    """How far back skin goes per radian [m], (n,), where it hangs in a ``gap``, (n,): soon behind either lip, nothing at the
+    corners."""
     marks = head.landmarks
     middle = 0.5 * (marks.mouth_left + marks.mouth_right)
     half_width = 0.5 * float(np.linalg.norm(marks.mouth_left - marks.mouth_right))
-    away = (head.skin.vertices - middle) / half_width
-    beside, over = np.clip(np.abs(away[:, 0]), 0.0, 1.0), np.clip(np.abs(away[:, 1]) / _SEAM_REACH, 0.0, 1.0)
-    between = 4.0 * weight * (1.0 - weight)
-    lever = float(np.linalg.norm(middle - hinge))
-    hollow: Floats = _HOLLOW * lever * between * (1.0 - beside**2) ** 2 * (1.0 - over**4)
+    behind = (middle[2] - head.skin.vertices[:, 2]) / half_width
+    deep = np.clip((behind - _DEEP[0]) / (_DEEP[1] - _DEEP[0]), 0.0, 1.0)
+    upper, lower = _smooth(0.5 - 0.5 * gap), _smooth(0.5 + 0.5 * gap)
+    way = np.clip((weight - upper) / np.maximum(lower - upper, 1e-9), 0.0, 1.0)
+    between = 1.0 - (1.0 - 4.0 * way * (1.0 - way)) ** 2
+    hollow: Floats = _HOLLOW * float(np.linalg.norm(middle - hinge)) * between * gap**2 * (1.0 - deep)
     return hollow
 
 
@@ -188,16 +162,21 @@ def _evened(skin: TriangleMesh, values: Floats) -> Floats:
     return values
 
 
-def _spread(skin: TriangleMesh, skull: Mask, jawbone: Mask) -> Floats:
-    """The harmonic function that is 0 on one set of vertices and 1 on the other, smoothed at both ends, (n,)."""
+def _spread(skin: TriangleMesh, held: Floats) -> Floats:
+    """The harmonic function that is as ``held`` where that is a number, (n,)."""
     ends = np.concatenate([skin.faces[:, [0, 1]], skin.faces[:, [1, 2]], skin.faces[:, [2, 0]]])
     lengths = np.linalg.norm(skin.vertices[ends[:, 0]] - skin.vertices[ends[:, 1]], axis=1)
     near = 1.0 / np.maximum(lengths, 0.02 * lengths.mean())
     count = len(skin.vertices)
     weights = sparse.coo_array((np.tile(near, 2), (ends.ravel("F"), ends[:, ::-1].ravel("F"))), shape=(count, count))
     laplacian = (sparse.diags_array(weights.sum(axis=1) + _LOOSE * near.mean()) - weights).tocsr()
-    value = jawbone.astype(np.float64)
-    free = np.nonzero(~(skull | jawbone))[0]
+    free = np.nonzero(np.isnan(held))[0]
+    value = np.nan_to_num(held)
     rows = laplacian[free]
     value[free] = splu(rows[:, free].tocsc()).solve(-rows @ value)
+    return value
+
+
+def _smooth(value: Floats) -> Floats:
+    """From 0 to 1 without a bend at either end."""
     return value * value * (3.0 - 2.0 * value)

@@ -11,6 +11,7 @@ import trimesh
 
 from ..head import Head, Landmarks, Part
 from ..mesh import Floats, TriangleMesh
+from ..mouth import with_mouth
 from ..neck import Neck
 from .anthropometry import measured
 from .eyes import EYE, EYE_AXIS, EYE_RADIUS
@@ -40,7 +41,7 @@ def mannequin() -> Head:
         landmarks=_landmarks(skin),
         parts=(_eye(EYE, EYE_AXIS), _eye(EYE * _MIRROR, EYE_AXIS * _MIRROR)),
     )
-    return replace(head, notes=(_description(head),))
+    return with_mouth(replace(head, notes=(_description(head),)))
 
 
 def _description(head: Head) -> str:
