@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -60,17 +60,18 @@ class Dynamics:
         self.timer.take()
 
     def outer_acceleration(self, state: HairState, now: Circumstances, dt: float) -> Floats:
-        """What hair and the outside do to hair [m/s^2], (n, 3): forces that change little within dt, a step [s]."""
+        """What hair and the outside do to hair [m/s^2], (n, 3): forces that change little within dt, a step [s].
+
+        state: at which hair-hair forces are found, for the best that of the middle of the step.
+        """
         acceleration = np.zeros_like(state.positions)
         if now.outside is not None:
             acceleration += now.outside / self.model.mass[:, None]
         if now.settings.interactions:
-            # Seen from where the step is going, pressure already falls as hair gives way, and does not overshoot.
-            ahead = replace(state, positions=state.positions + dt * state.velocities)
             with self.timer.stage("neighbours"):
-                pairs = self.neighbours.pairs(ahead.positions)
+                pairs = self.neighbours.pairs(state.positions)
             with self.timer.stage("interactions"):
-                force, _ = hair_hair_forces(self.model, now.settings, ahead, pairs, dt)
+                force, _ = hair_hair_forces(self.model, now.settings, state, pairs, dt)
                 acceleration += force / self.model.mass[:, None]
         return acceleration
 

@@ -16,6 +16,8 @@ solve it, with hair that lies on the body held there (resting.py).
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..head.mesh import Floats
@@ -54,11 +56,10 @@ class ImplicitSolver:
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
 
-        Hair-hair interactions are the dear part and change slowly: they are found once. Springs, inertia and contact go
-        through the step in ``parts``.
+        Hair-hair interactions are the dear part and change slowly: they are found once, for the middle of the step.
+        Springs, inertia and contact go through the step in ``parts``.
         """
-        dynamics = self.dynamics
-        outer = dynamics.outer_acceleration(state, now, dt)
+        outer = self.dynamics.outer_acceleration(self._halfway(state, dt), now, dt)
         self._stiffen(now.settings, dt / self.parts)
         for _ in range(self.parts):
             state = self._part(state, now, outer, dt / self.parts)
@@ -69,6 +70,15 @@ class ImplicitSolver:
         if (settings.stiffness, dt) != self._stiffened:
             self._matrix.stiffen(self.dynamics.bending.too_stiff(settings, dt), _G * dt)
             self._stiffened = (settings.stiffness, dt)
+
+    def _halfway(self, state: HairState, dt: float) -> HairState:
+        """Where hair comes to in half of a step of dt [s], and how fast, if it goes on to gain what it gained last."""
+        gained = state.velocities - state.before[1] if state.before else 0.0
+        return replace(
+            state,
+            positions=state.positions + 0.5 * dt * state.velocities,
+            velocities=state.velocities + 0.5 * self.parts * gained,
+        )
 
     def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:
         """One BDF2 step of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
