@@ -26,7 +26,7 @@ from ..wrinkle.face_chart import FaceChart
 from ..wrinkle.face_creases import face_layout
 from ..wrinkle.fitting import change_of_shape
 from ..wrinkle.scan_fit import fit_face
-from ..wrinkle.scan_heights import ScanHeights, SkinTexels
+from ..wrinkle.scan_heights import ScanHeights
 from .furrow_files import FURROW_SUFFIXES, keep_furrows
 from .reporting import counting, results, say, working
 
@@ -74,10 +74,9 @@ def measure(document: Document, scan: TriangleMesh, builder: Builder, laid: Floa
         mesh = skin.creases.mesh(living.skin)
         there = scan if laid is None or not shown else moved(scan, laid)
         states.append((mesh, there, compare(mesh, there, skin.surface.mapped > 0.5)))
-    texels = SkinTexels.of(face_layout(builder.head(document.head)))
-    heights = ScanHeights.measured(texels, scan)
+    heights = ScanHeights.measured(face_layout(builder.head(document.head)), scan)
     shape = change_of_shape(heights)
-    nearest = cKDTree(texels.positions)
+    nearest = cKDTree(heights.texels.positions)
 
     smooth = [_at_both(mesh, at, each, lambda points: shape[nearest.query(points)[1]]) for mesh, at, each in states]
     comparison = states[0][2]

@@ -82,9 +82,9 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
     progress: told what is being done and how much is done already, 0 to 1. The same scan gives the same furrows. A scan
     that covers nothing, or has no valley, gives none.
     """
-    texels = SkinTexels.of(layout)
     progress("measuring the scan", 0.0)
-    raw = ScanHeights.measured(texels, scan)
+    raw = ScanHeights.measured(layout, scan)
+    texels = raw.texels
     if not raw.covered.any():
         return FurrowFit((), np.eye(4), np.zeros_like(raw.height), texels, raw.height)
     everywhere = np.ones_like(raw.height)

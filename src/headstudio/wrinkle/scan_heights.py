@@ -16,9 +16,9 @@ from .skin_layout import SkinLayout
 from .smooth_surface import SmoothSurface
 from .texels import Flags, texel_map
 
-# Edge of a texel on the skin [m], and the most of them along an edge of the map.
-TEXEL = 8e-4
-_MOST_TEXELS = 1024
+# Edge of a texel on the skin [m], which this part of the skin keeps to, and the most of them along an edge of the map.
+TEXEL, _KEEPING = 8e-4, 0.75
+_MOST_TEXELS = 1600
 # A scan is looked for this far above and below the skin [m]; it must face as the skin does.
 _REACH = 0.015
 _FACING = 0.3
@@ -45,10 +45,24 @@ class SkinTexels:
     area: Floats
 
     @classmethod
-    def of(cls, layout: SkinLayout) -> SkinTexels:
-        """The texels of a layout, as large as the skin asks for."""
+    def under(cls, scan: Locator, layout: SkinLayout) -> SkinTexels:
+        """The texels that a scan may cover. A map is drawn out on a chin or a cheek: they are so small that the skin
+        there is seen as closely as a forehead."""
+        whole = cls._of(layout, int(np.ceil(layout.texture_map.metres / TEXEL)))
+        near = scan.nearest(whole.positions)[1] < _REACH
+        if not near.any():
+            return whole._chosen(near)
+        finer = np.quantile(np.sqrt(whole.area[near]), _KEEPING) / TEXEL
+        fine = cls._of(layout, int(min(np.ceil(finer * whole.size), _MOST_TEXELS)))
+        # The fine texels in a coarse one that is near, or beside such.
+        image = ndimage.binary_dilation(np.nan_to_num(whole.image(near)) > 0)
+        cells = (fine.uv * whole.size).astype(np.int64)
+        return fine._chosen(image[cells[:, 1], cells[:, 0]])
+
+    @classmethod
+    def _of(cls, layout: SkinLayout, size: int) -> SkinTexels:
+        """All texels of a layout."""
         texture_map = layout.texture_map
-        size = int(min(np.ceil(texture_map.metres / TEXEL), _MOST_TEXELS))
         drawn = texel_map(texture_map, size)
         texels = np.flatnonzero(drawn.mapped)
         triangle = drawn.triangle.ravel()[texels]
@@ -59,10 +73,15 @@ class SkinTexels:
         area = np.sqrt(np.linalg.det(metrics)) / size**2
         return cls(layout, size, texels, centres / size, metrics, positions, normals, area)
 
-    @property
+    def _chosen(self, chosen: Flags) -> SkinTexels:
+        """Those that are ``chosen``, (k,)."""
+        values = (self.texels, self.uv, self.metrics, self.positions, self.normals, self.area)
+        return SkinTexels(self.layout, self.size, *(value[chosen] for value in values))
+
+    @cached_property
     def metres(self) -> float:
-        """Edge of a texel on the skin [m]."""
-        return self.layout.texture_map.metres / self.size
+        """Edge of a texel on the skin [m]: half of them are larger."""
+        return float(np.sqrt(np.median(self.area)))
 
     def image(self, values: Floats) -> Floats:
         """Values of the texels, (k,), as an image, (size, size); nan off the skin."""
@@ -102,9 +121,11 @@ class ScanHeights:
     height: Floats
 
     @classmethod
-    def measured(cls, texels: SkinTexels, scan: TriangleMesh) -> ScanHeights:
-        """The heights of ``scan``, given in the skin's frame [m]."""
-        return cls(texels, texels.heights(Locator(scan.vertices, scan.faces), scan.face_normals))
+    def measured(cls, layout: SkinLayout, scan: TriangleMesh) -> ScanHeights:
+        """The heights of ``scan``, given in the skin's frame [m], over the skin of ``layout``."""
+        locator = Locator(scan.vertices, scan.faces)
+        texels = SkinTexels.under(locator, layout)
+        return cls(texels, texels.heights(locator, scan.face_normals))
 
     @cached_property
     def covered(self) -> Flags:
