@@ -44,7 +44,7 @@ _CLEAR, _ANYWHERE = 0.12, np.inf
 # The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
 _PIECE = 0.014
 # Sweeps for single shapes, for cross sections, and again with grooves that were missed.
-_STEPS = (3, 3, 4)
+_STEPS = (3, 10, 4)
 # Steps end when all grooves together bring less than this part, and for one that brings less than this.
 _SETTLED, _STILL = 4e-3, 3e-4
 # The last are done again, at most so often, until a round brings less than this part.

@@ -11,6 +11,7 @@ from scipy.interpolate import NearestNDInterpolator
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot
 from .bezier import BezierChain
 from .cross_profile import Section, section_height, section_reach, section_shares, section_slope
 from .furrow import Furrow
@@ -182,6 +183,7 @@ class GrooveBed:
             shares[np.arange(len(t)), 3 * piece + k] = share
         # How the distance falls as each free control point moves a metre to its left, (i, f).
         self.by_control = -(shares @ weights) * (ahead @ self.free.T)
+        self._metrics = metrics
         first, last = chain.controls[1] - chain.controls[0], chain.controls[-1] - chain.controls[-2]
         self._end_speed = 3.0 * metrics.lengths(chain.controls[[0, -1]], np.stack([first, last]))
 
@@ -220,6 +222,18 @@ class GrooveBed:
         if groove.swell:
             derivative[:, -len(groove.swell) :] = (fade * profile)[:, None] * swell_shares(part, len(groove.swell))[0]
         return fade * swell * profile, derivative
+
+    def curving(self) -> tuple[Floats, Floats]:
+        """How far control points lie off the middle of those beside them, square to the curve [m], (2 n,), where a cubic
+        bends, and how that changes as each free control point moves a metre to its left, (2 n, f)."""
+        controls = self.groove.controls
+        middle = np.setdiff1d(np.arange(1, len(controls) - 1), np.arange(3, len(controls) - 1, 3))
+        left = self._metrics.across(controls[middle], controls[middle + 1] - controls[middle - 1])
+        g = self._metrics.at(controls[middle])
+        square = np.einsum("kij,kj->ki", g, left)
+        bend = controls[middle - 1] - 2.0 * controls[middle] + controls[middle + 1]
+        moves = self._moves[middle - 1] - 2.0 * self._moves[middle] + self._moves[middle + 1]
+        return row_dot(square, bend), moves * (square @ self.free.T)
 
     def wholeness(self) -> Floats:
         """How much of the groove is there, (i,): 0 at the ends to 1."""

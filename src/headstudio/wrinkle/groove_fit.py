@@ -18,6 +18,7 @@ from scipy.spatial.transform import Rotation
 
 from ..head.mesh import Floats, Ints
 from .groove import SAMPLES, Groove, GrooveBed, MetricField
+from .groove_stiffness import bends_of
 from .scan_heights import ScanHeights
 
 # Distances below this count by their square [m]: the noise of a scan.
@@ -40,6 +41,13 @@ class _Placed:
         self.height, derivative = bed.heights()
         # Far out everything is so small that arithmetic gets slow. By its unknowns, (i, unknowns).
         self.slopes = np.where(np.abs(derivative) < _NOTHING, 0.0, derivative)
+        # What stiffness asks for: these, (s,), to be nothing; and their derivatives, (s, unknowns).
+        self.bends, self.by_unknowns = bends_of(bed, _NOISE)
+
+    @property
+    def strain(self) -> float:
+        """What winding about costs [m^3]."""
+        return 0.5 * float(self.bends @ self.bends)
 
 
 class GrooveFit:
@@ -56,7 +64,8 @@ class GrooveFit:
         self._covered: cKDTree = cKDTree(self.texels.positions[self._rows]) if known is None else known._covered
         self._upright = uprightness(heights)
         self._area = np.where(heights.covered, self.texels.area, 0.0)
-        self._area /= self._area.sum()
+        self._whole = self._area.sum()
+        self._area /= self._whole
         placed = {} if known is None else {placed.bed.groove: placed for placed in known._placed}
         self._placed: list[_Placed] = [placed.get(groove) or _Placed(self._bed(groove)) for groove in grooves]
         self._damping = np.full(len(self._placed), _DAMPING)
@@ -144,6 +153,9 @@ class GrooveFit:
             left = self.heights.height[bed.rows] - self._height[bed.rows] - placed.height
             scales = bed.scales(_LOG, _PLACE)
             normal, pull = _equations(placed.slopes * scales, left, self._weights(bed.rows, left))
+            stiff = placed.by_unknowns * scales / np.sqrt(self._whole)
+            normal += stiff.T @ stiff
+            pull -= stiff.T @ placed.bends / np.sqrt(self._whole)
             for _ in range(_TRIES):
                 moved = bed.moved(scales * _step(normal, pull, self._damping[k]))
                 tried = _Placed(GrooveBed(moved, self.texels, self._metrics, near))
@@ -164,7 +176,7 @@ class GrooveFit:
         # The texels of a groove are some of those near it, in the same order.
         own = np.searchsorted(near, placed.bed.rows)
         height[own] += placed.height
-        return self._cost(near, height)
+        return self._cost(near, height) + placed.strain / self._whole
 
     def _cost(self, rows: Ints, height: Floats) -> float:
         left = (self.heights.height[rows] - height) * self._upright[rows]
