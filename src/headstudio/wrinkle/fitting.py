@@ -37,8 +37,9 @@ _TOLERANCE, _ENDS = 3e-4, 0.25
 _SIDES, _WIDTH = 2.2, 1.2
 # Furrows that are shallower [m] or, end to end, shorter [m] than this are left out.
 _FAINT, _SHORT = 5e-5, 8e-3
-# A groove that brings the skin nearer by less than this part is left out.
-_WORTH = 0.002
+# A groove that makes the room between skin and scan smaller by less than this is left out [m^3], in the end one that others
+# can make good but for so much. Only those worth less than so many times that are tried.
+_WORTH, _PRICE, _DOUBTED = 2e-9, 1.5e-9, 10.0
 # Where sections are looked at, other grooves make at most this part of the depth; later on whatever they do.
 _CLEAR, _ANYWHERE = 0.12, np.inf
 # The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
@@ -49,7 +50,7 @@ _STEPS = (3, 10, 4)
 _SETTLED, _STILL = 4e-3, 3e-4
 # The last are done again, at most so often, until a round brings less than this part.
 _ROUNDS, _SETTLED_ROUND = 3, 0.012
-_LAST = 3
+_LAST = 6
 # Where less than this part of a groove is there, it ends.
 _OUT = 0.06
 # The depth of a groove may be another this far along it [m].
@@ -123,7 +124,7 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
             fit = tried
         if fell < _SETTLED_ROUND:
             break
-    fit = _pruned(fit.replaced(_trimmed(fit)))
+    fit = _thinned(_pruned(fit.replaced(_trimmed(fit))))
     _steps(fit, _LAST, progress, "moving and sizing them", 0.97, 1.0)
     progress("done", 1.0)
     return FurrowFit(tuple(fit.grooves), fit.motion, smooth, texels, fit.left)
@@ -213,6 +214,26 @@ def _notable(smooth: Floats, raw: ScanHeights, beside: Floats) -> Floats:
 def _pruned(fit: GrooveFit) -> GrooveFit:
     """The fit without grooves that hardly bring the skin nearer."""
     return fit.replaced([groove for groove, gain in zip(fit.grooves, fit.worth()) if gain > _WORTH])
+
+
+def _thinned(fit: GrooveFit) -> GrooveFit:
+    """The fit without grooves that others can make good for, nearly: one line of a scan is one furrow where one will do."""
+    share = 1.0
+    while True:
+        worth = fit.worth()
+        doubted = np.argsort(worth)[: int((worth < _DOUBTED * _PRICE).sum())]
+        count = int(np.ceil(share * len(doubted)))
+        if not count:
+            return fit
+        out = doubted[:count]
+        tried = fit.replaced([groove for k, groove in enumerate(fit.grooves) if k not in set(out.tolist())])
+        _steps(tried, _STEPS[0], lambda what, part: None, "", 0.0, 0.0)
+        if fit.area * (tried.cost - fit.cost) < _PRICE * count:
+            fit = tried
+        elif count == 1:
+            return fit
+        else:
+            share *= 0.5
 
 
 def _trimmed(fit: GrooveFit) -> list[Groove]:

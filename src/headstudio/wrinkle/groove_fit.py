@@ -64,8 +64,8 @@ class GrooveFit:
         self._covered: cKDTree = cKDTree(self.texels.positions[self._rows]) if known is None else known._covered
         self._upright = uprightness(heights)
         self._area = np.where(heights.covered, self.texels.area, 0.0)
-        self._whole = self._area.sum()
-        self._area /= self._whole
+        self.area = self._area.sum()
+        self._area /= self.area
         placed = {} if known is None else {placed.bed.groove: placed for placed in known._placed}
         self._placed: list[_Placed] = [placed.get(groove) or _Placed(self._bed(groove)) for groove in grooves]
         self._damping = np.full(len(self._placed), _DAMPING)
@@ -109,13 +109,13 @@ class GrooveFit:
         return fell
 
     def worth(self) -> Floats:
-        """By which part the mean distance would rise without each groove, (grooves,)."""
-        cost, rises = self.cost, []
+        """How much more room there would be between scan and skin without each groove [m^3], (grooves,)."""
+        rises = []
         for placed in self._placed:
             rows = placed.bed.rows
             height = self._height[rows]
             rises.append(self._cost(rows, height - placed.height) - self._cost(rows, height))
-        return np.array(rises) / cost
+        return self.area * np.array(rises)
 
     def replaced(self, grooves: Sequence[Groove]) -> GrooveFit:
         """A fit of other grooves to the same scan where it is now."""
@@ -153,9 +153,9 @@ class GrooveFit:
             left = self.heights.height[bed.rows] - self._height[bed.rows] - placed.height
             scales = bed.scales(_LOG, _PLACE)
             normal, pull = _equations(placed.slopes * scales, left, self._weights(bed.rows, left))
-            stiff = placed.by_unknowns * scales / np.sqrt(self._whole)
+            stiff = placed.by_unknowns * scales / np.sqrt(self.area)
             normal += stiff.T @ stiff
-            pull -= stiff.T @ placed.bends / np.sqrt(self._whole)
+            pull -= stiff.T @ placed.bends / np.sqrt(self.area)
             for _ in range(_TRIES):
                 moved = bed.moved(scales * _step(normal, pull, self._damping[k]))
                 tried = _Placed(GrooveBed(moved, self.texels, self._metrics, near))
@@ -176,7 +176,7 @@ class GrooveFit:
         # The texels of a groove are some of those near it, in the same order.
         own = np.searchsorted(near, placed.bed.rows)
         height[own] += placed.height
-        return self._cost(near, height) + placed.strain / self._whole
+        return self._cost(near, height) + placed.strain / self.area
 
     def _cost(self, rows: Ints, height: Floats) -> float:
         left = (self.heights.height[rows] - height) * self._upright[rows]

@@ -12,7 +12,7 @@ from .bezier import BezierChain, bend, polynomial, slope
 # A curve is first looked at in this many places; what may be nearest is then made exact by Newton's method.
 _SAMPLES = 16
 _NEWTON_STEPS = 40
-_SETTLED = 1e-10
+_SETTLED, _NEARLY = 1e-10, 1e-5
 # So many points are treated at a time, to bound memory.
 _BATCH = 4096
 
@@ -45,9 +45,12 @@ def nearest_on_curve(chain: BezierChain, points: Floats, metrics: Floats | None 
 
 
 def slid_to_nearest(chain: BezierChain, points: Floats, metrics: Floats, t: Floats) -> NearestOnCurve:
-    """The nearest point of a chain for each point, on the same curve as t and close to it, (k,)."""
+    """The nearest point of a chain for each point, on the same curve as t and close to it, (k,).
+
+    Its parameter is within some 1e-5 of it, and so the distance, which is least there, within rounding.
+    """
     piece, u = chain.split(t)
-    return _measured(chain, points, metrics, piece, _newton(chain.coefficients[piece], u, points, metrics))
+    return _measured(chain, points, metrics, piece, _newton(chain.coefficients[piece], u, points, metrics, _NEARLY))
 
 
 def _nearest(chain: BezierChain, points: Floats, metrics: Floats) -> NearestOnCurve:
@@ -87,7 +90,7 @@ def _candidates(chain: BezierChain, points: Floats, metrics: Floats) -> tuple[In
     return row, piece, u[sample]
 
 
-def _newton(coefficients: Floats, u: Floats, points: Floats, metrics: Floats) -> Floats:
+def _newton(coefficients: Floats, u: Floats, points: Floats, metrics: Floats, settled: float = _SETTLED) -> Floats:
     """The parameters where the distances are least, near u, (k,): Newton's method between the neighbouring samples."""
     found, moving = u.copy(), np.arange(len(u))
     low, high = np.maximum(u - 1.0 / _SAMPLES, 0.0), np.minimum(u + 1.0 / _SAMPLES, 1.0)
@@ -103,7 +106,7 @@ def _newton(coefficients: Floats, u: Floats, points: Floats, metrics: Floats) ->
         step = u - gradient / curvature
         step = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
         found[moving] = step
-        left = np.abs(step - u) > _SETTLED
+        left = np.abs(step - u) > settled
         if not left.any():
             break
         coefficients, points, metrics = coefficients[left], points[left], metrics[left]
