@@ -37,15 +37,15 @@ _TOLERANCE, _ENDS = 3e-4, 0.25
 _SIDES, _WIDTH = 2.2, 1.2
 # Furrows that are shallower [m] or, end to end, shorter [m] than this are left out.
 _FAINT, _SHORT = 5e-5, 8e-3
-# A groove that makes the room between skin and scan smaller by less than this is left out [m^3], in the end one that others
-# can make good but for so much. Only those worth less than so many times that are tried.
-_WORTH, _PRICE, _DOUBTED = 2e-9, 1.5e-9, 10.0
+# What a groove costs [m^3]: the room between skin and scan is to be smaller by more, with it, than without it. Whether others
+# can make good for one is tried when by itself it is worth less than so many times that.
+_PRICE, _DOUBTED = 1.5e-9, 10.0
 # Where sections are looked at, other grooves make at most this part of the depth; later on whatever they do.
 _CLEAR, _ANYWHERE = 0.12, np.inf
 # The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
 _PIECE = 0.014
 # Sweeps for single shapes, for cross sections, and again with grooves that were missed.
-_STEPS = (3, 10, 4)
+_STEPS = (3, 10, 6)
 # Steps end when all grooves together bring less than this part, and for one that brings less than this.
 _SETTLED, _STILL = 4e-3, 3e-4
 # The last are done again, at most so often, until a round brings less than this part.
@@ -119,12 +119,13 @@ def fit_grooves(layout: SkinLayout, scan: TriangleMesh, progress: Progress = lam
         tried.sweep(range(len(fit.grooves), len(tried.grooves)))
         tried = _pruned(tried)
         _steps(tried, _STEPS[2], progress, "moving and sizing them", start, end, rigid=True)
-        fell = 1.0 - tried.cost / fit.cost
+        tried = _thinned(tried)
+        fell = 1.0 - _price(tried) / _price(fit)
         if fell > 0:
             fit = tried
         if fell < _SETTLED_ROUND:
             break
-    fit = _thinned(_pruned(fit.replaced(_trimmed(fit))))
+    fit = fit.replaced(_trimmed(fit))
     _steps(fit, _LAST, progress, "moving and sizing them", 0.97, 1.0)
     progress("done", 1.0)
     return FurrowFit(tuple(fit.grooves), fit.motion, smooth, texels, fit.left)
@@ -213,7 +214,12 @@ def _notable(smooth: Floats, raw: ScanHeights, beside: Floats) -> Floats:
 
 def _pruned(fit: GrooveFit) -> GrooveFit:
     """The fit without grooves that hardly bring the skin nearer."""
-    return fit.replaced([groove for groove, gain in zip(fit.grooves, fit.worth()) if gain > _WORTH])
+    return fit.replaced([groove for groove, gain in zip(fit.grooves, fit.worth()) if gain > _PRICE])
+
+
+def _price(fit: GrooveFit) -> float:
+    """The room that a fit leaves between skin and scan, and what its grooves cost [m^3]."""
+    return fit.area * fit.cost + _PRICE * len(fit.grooves)
 
 
 def _thinned(fit: GrooveFit) -> GrooveFit:
@@ -228,7 +234,7 @@ def _thinned(fit: GrooveFit) -> GrooveFit:
         out = doubted[:count]
         tried = fit.replaced([groove for k, groove in enumerate(fit.grooves) if k not in set(out.tolist())])
         _steps(tried, _STEPS[0], lambda what, part: None, "", 0.0, 0.0)
-        if fit.area * (tried.cost - fit.cost) < _PRICE * count:
+        if _price(tried) < _price(fit):
             fit = tried
         elif count == 1:
             return fit

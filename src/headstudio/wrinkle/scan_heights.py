@@ -22,6 +22,8 @@ _MOST_TEXELS = 1600
 # A scan is looked for this far above and below the skin [m]; it must face as the skin does.
 _REACH = 0.015
 _FACING = 0.3
+# What is covered is not in pieces smaller than this [m^2].
+_ISLAND = 2e-5
 # Rays start this far on the other side of the skin [m], so that a scan that touches it is met.
 _RAY_START = 1e-4
 
@@ -110,6 +112,11 @@ class SkinTexels:
         kept = covered[facing]
         heights = np.full(len(height), np.nan)
         heights[kept] = height[kept]
+        # Through a nostril or between lips a ray may meet the far side of something else.
+        islands, count = ndimage.label(np.isfinite(self.image(heights)))
+        island = islands.ravel()[self.texels]
+        small = np.bincount(island, self.area, count + 1) < _ISLAND
+        heights[small[island]] = np.nan
         return heights
 
 
