@@ -1,9 +1,10 @@
-"""A table of fits to strange scans: distances before and after, how near anything could come, and where the rest lies.
+"""A table of fits to strange scans: distances before and after, and how near anything could come.
 
-    hs py -m tests.wrinkle.fit_table 1 2 3 [--keep FOLDER]
+    hs py -m tests.wrinkle.fit_table 1001 1002 1003 [--keep FOLDER] [--head FILE]
 
 Scans are drawn from their number: heads, places, rims, crossings, close parallels. Those from 1 on were looked at while
-the fit was made; those from 201 on were not.
+the fit was made; those from 201 on were not before the table was made that has them. From 1001 on heads of any age and
+sex are drawn, and places from the forehead to the neck; whether a line is followed by another is left to chance.
 """
 
 from __future__ import annotations
@@ -33,12 +34,41 @@ HEADS = (
 RIMS = (0.0, 0.3, 0.5, 1.0)
 
 
+# The first places are those of numbers below this.
+_WIDER, _FEWER_PLACES = 1001, ("forehead", "cheek", "face", "chin", "temple")
+
+
+def drawn_wider(number: int, file: str | None = None) -> tuple[HeadSettings, Strange]:
+    """The head and the recipe of a scan by its number, of all heads and places there are, or of the head of a file."""
+    rng = np.random.default_rng(number)
+    made = HeadSettings(source="makehuman", age=float(rng.uniform(0.1, 0.9)), masculine=float(rng.integers(2)))
+    head = HeadSettings(source="mannequin") if rng.random() < 0.25 else made
+    place = str(rng.choice(list(PLACES)))
+    recipe = Strange(
+        number,
+        place=place,
+        radius=rng.uniform(0.03, 0.05),
+        lines=int(rng.integers(1, 7)),
+        spread=rng.uniform(1.0, 1.8),
+        rims=rng.uniform(0.0, 1.0),
+        rim_at=rng.uniform(2.0, 3.0),
+        rim_width=rng.uniform(0.6, 1.4),
+        wander=rng.uniform(0.5e-3, 3.5e-3),
+        crossing=bool(rng.random() < 0.3),
+        smooth=bool(rng.random() < 0.5),
+        added=bool(rng.random() < 0.5),
+        varying=rng.uniform(0.0, 0.5),
+        spacing=rng.uniform(0.8e-3, 1.6e-3),
+    )
+    return (HeadSettings(source=file) if file else head), recipe
+
+
 def drawn(number: int) -> tuple[HeadSettings, Strange]:
     """The head and the recipe of a scan by its number."""
     rng = np.random.default_rng(number)
     rims, head = RIMS[number % 4], HEADS[number % 3]
     kind = ("one above the other", "crossing", "close")[number // 4 % 3]
-    place = str(rng.choice(list(PLACES)))
+    place = str(rng.choice(_FEWER_PLACES))
     radius = {"forehead": 0.045, "face": 0.065}.get(place, 0.035) * rng.uniform(0.85, 1.15)
     lines = int(rng.integers(1, 9 if radius < 0.05 else 13))
     spread = 1.5
@@ -65,8 +95,8 @@ def drawn(number: int) -> tuple[HeadSettings, Strange]:
     return head, recipe
 
 
-def row(number: int, keep: Path | None, show: Callable[[str], object]) -> None:
-    head_settings, recipe = drawn(number)
+def row(number: int, keep: Path | None, show: Callable[[str], object], file: str | None = None) -> None:
+    head_settings, recipe = drawn_wider(number, file) if number >= _WIDER else drawn(number)
     document = replace(Document(), head=head_settings)
     builder = Builder()
     head = builder.head(document.head)
@@ -74,7 +104,7 @@ def row(number: int, keep: Path | None, show: Callable[[str], object]) -> None:
     clean = strange_scan(head, replace(recipe, noise=0.0))
     floor = compare(clean, scan).distances().mean
     start = time.process_time()
-    changed, laid, _ = fitted(document, scan, builder)
+    changed, laid, note = fitted(document, scan, builder)
     seconds = time.process_time() - start
     report = measure(changed, scan, builder, laid)
     figures = []
@@ -91,8 +121,10 @@ def row(number: int, keep: Path | None, show: Callable[[str], object]) -> None:
         else f"{recipe.spread * (recipe.radius - 0.012) / recipe.lines * 1e3:.0f} mm apart"
     )
     show(
-        f"{number:4d} {head_settings.source:9s} {recipe.place:8s} {recipe.lines:2d} lines {kind:11s} rims {recipe.rims:.1f} | "
-        f"{figures[0]} (noise {1e3 * floor:.3f} {best:.0%}) | around {figures[1]} | {seconds:.0f} s\n"
+        f"{number:4d} {_named(head_settings):18s} {recipe.place:10s} "
+        f"{recipe.lines:2d} lines {kind:11s} rims {recipe.rims:.1f} | "
+        f"{figures[0]} (noise {1e3 * floor:.3f} {best:.0%}) | around {figures[1]} | "
+        f"{note.split()[0]} furrows | {seconds:.0f} s\n"
     )
     if keep is not None:
         keep.mkdir(parents=True, exist_ok=True)
@@ -102,10 +134,18 @@ def row(number: int, keep: Path | None, show: Callable[[str], object]) -> None:
         (keep / f"{number}.json").write_bytes(encode_furrows(changed.wrinkle.furrows))
 
 
+def _named(head: HeadSettings) -> str:
+    if head.source != "makehuman":
+        return Path(head.source).stem
+    return f"{'man' if head.masculine > 0.5 else 'woman'} {head.age:.2f}"
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("numbers", type=int, nargs="+")
     parser.add_argument("--keep", type=Path)
+    parser.add_argument("--head", help="the head of this file, for numbers from 1001 on")
     chosen = parser.parse_args()
     for each in chosen.numbers:
-        row(each, chosen.keep, sys.stdout.write)
+        row(each, chosen.keep, sys.stdout.write, chosen.head)
+        sys.stdout.flush()

@@ -18,13 +18,15 @@ from headstudio.head.mesh import Floats, TriangleMesh
 
 from .skins import cut
 
-# Where a scan may look: two landmarks and how far from the first towards the second its middle lies.
+# Where a scan may look: two landmarks and how far from the first towards the second (and beyond) its middle lies.
 PLACES = {
     "forehead": ("glabella", "hairline", 0.5),
     "cheek": ("left_eye", "mouth_left", 0.55),
     "face": ("nasion", "nose_tip", 0.3),
     "chin": ("nose_tip", "chin", 0.8),
     "temple": ("right_eye", "right_tragus", 0.4),
+    "eye corner": ("nasion", "left_eye", 1.7),
+    "neck": ("nose_tip", "chin", 1.8),
 }
 
 

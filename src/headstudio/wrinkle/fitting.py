@@ -39,7 +39,7 @@ _SIDES, _WIDTH = 2.2, 1.2
 _FAINT, _SHORT = 5e-5, 8e-3
 # What a groove costs [m^3]: the room between skin and scan is to be smaller by more, with it, than without it. Whether others
 # can make good for one is tried when by itself it is worth less than so many times that.
-_PRICE, _DOUBTED = 1.5e-9, 10.0
+_PRICE, _DOUBTED = 2.2e-9, 10.0
 # Where sections are looked at, other grooves make at most this part of the depth; later on whatever they do.
 _CLEAR, _ANYWHERE = 0.12, np.inf
 # The curve of a groove is cut into pieces no longer than this [m], to follow how it wanders.
@@ -224,7 +224,7 @@ def _price(fit: GrooveFit) -> float:
 
 def _thinned(fit: GrooveFit) -> GrooveFit:
     """The fit without grooves that others can make good for, nearly: one line of a scan is one furrow where one will do."""
-    share = 1.0
+    share = 0.5
     while True:
         worth = fit.worth()
         doubted = np.argsort(worth)[: int((worth < _DOUBTED * _PRICE).sum())]
@@ -232,8 +232,11 @@ def _thinned(fit: GrooveFit) -> GrooveFit:
         if not count:
             return fit
         out = doubted[:count]
-        tried = fit.replaced([groove for k, groove in enumerate(fit.grooves) if k not in set(out.tolist())])
-        _steps(tried, _STEPS[0], lambda what, part: None, "", 0.0, 0.0)
+        kept = np.setdiff1d(np.arange(len(worth)), out)
+        touched = np.isin(kept, fit.beside(out)).nonzero()[0]
+        tried = fit.replaced([fit.grooves[k] for k in kept])
+        for _ in range(_STEPS[0]):
+            tried.sweep(touched)
         if _price(tried) < _price(fit):
             fit = tried
         elif count == 1:

@@ -117,6 +117,13 @@ class GrooveFit:
             rises.append(self._cost(rows, height - placed.height) - self._cost(rows, height))
         return self.area * np.array(rises)
 
+    def beside(self, some: Ints) -> Ints:
+        """The grooves that displace skin that ``some`` of them do, too."""
+        shared = np.zeros(len(self._height), dtype=bool)
+        for k in some:
+            shared[self._placed[k].bed.rows] = True
+        return np.array([k for k, placed in enumerate(self._placed) if shared[placed.bed.rows].any()], dtype=np.int64)
+
     def replaced(self, grooves: Sequence[Groove]) -> GrooveFit:
         """A fit of other grooves to the same scan where it is now."""
         fit = GrooveFit(self.heights, grooves, self)

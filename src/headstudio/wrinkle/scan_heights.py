@@ -50,21 +50,21 @@ class SkinTexels:
     def under(cls, scan: Locator, layout: SkinLayout) -> SkinTexels:
         """The texels that a scan may cover. A map is drawn out on a chin or a cheek: they are so small that the skin
         there is seen as closely as a forehead."""
-        whole = cls._of(layout, int(np.ceil(layout.texture_map.metres / TEXEL)))
+        whole = cls.of(layout)
         near = scan.nearest(whole.positions)[1] < _REACH
         if not near.any():
             return whole._chosen(near)
-        finer = np.quantile(np.sqrt(whole.area[near]), _KEEPING) / TEXEL
-        fine = cls._of(layout, int(min(np.ceil(finer * whole.size), _MOST_TEXELS)))
+        fine = cls.of(layout, float(np.quantile(np.sqrt(whole.area[near]), _KEEPING) / TEXEL))
         # The fine texels in a coarse one that is near, or beside such.
-        image = ndimage.binary_dilation(np.nan_to_num(whole.image(near)) > 0)
+        image = ndimage.binary_dilation(np.nan_to_num(whole.image(np.where(near, 1.0, 0.0))) > 0)
         cells = (fine.uv * whole.size).astype(np.int64)
         return fine._chosen(image[cells[:, 1], cells[:, 0]])
 
     @classmethod
-    def _of(cls, layout: SkinLayout, size: int) -> SkinTexels:
-        """All texels of a layout."""
+    def of(cls, layout: SkinLayout, finer: float = 1.0) -> SkinTexels:
+        """All texels of a layout, so many times as fine as its map asks for on the whole."""
         texture_map = layout.texture_map
+        size = int(min(np.ceil(finer * texture_map.metres / TEXEL), _MOST_TEXELS))
         drawn = texel_map(texture_map, size)
         texels = np.flatnonzero(drawn.mapped)
         triangle = drawn.triangle.ravel()[texels]
@@ -77,8 +77,8 @@ class SkinTexels:
 
     def _chosen(self, chosen: Flags) -> SkinTexels:
         """Those that are ``chosen``, (k,)."""
-        values = (self.texels, self.uv, self.metrics, self.positions, self.normals, self.area)
-        return SkinTexels(self.layout, self.size, *(value[chosen] for value in values))
+        values = (self.uv, self.metrics, self.positions, self.normals, self.area)
+        return SkinTexels(self.layout, self.size, self.texels[chosen], *(value[chosen] for value in values))
 
     @cached_property
     def metres(self) -> float:
