@@ -26,14 +26,16 @@ from headstudio.wrinkle.hand_settings import HandSettings
 SIZE = (440, 440)
 CLOSE: dict[str, Any] = {"fine.texture_size": 1024, "skin.relief": 3.0}
 FROM_ABOVE: dict[str, Any] = {"camera.elevation": 0.8}
+# Seen whole, fine wrinkles as nature makes them are thinner than a pixel: three times as large, and more than twice as deep.
+WHOLE: dict[str, Any] = {"fine.texture_size": 1024, "fine.unit": 0.6e-3, "skin.relief": 2.5}
 OLD: dict[str, Any] = {"wrinkle.age": 1.0}
 # Limb, pose, age, the joint that is looked at, other settings, caption.
 LIMBS: tuple[tuple[str, str, float, str | None, dict[str, Any], str], ...] = (
     ("hand", "relaxed", 0.5, None, {}, "2.16"),
     ("hand", "open", 0.5, "middle proximal", CLOSE, "2.17 a, a knuckle at rest"),
     ("hand", "fist", 0.5, "middle proximal", CLOSE | FROM_ABOVE, "2.17 b, expanded in a fist"),
-    ("foot", "rest", 0.5, None, {}, "2.18"),
-    ("arm", "relaxed", 0.5, None, {}, "2.19"),
+    ("foot", "rest", 0.5, None, WHOLE, "2.18"),
+    ("arm", "relaxed", 0.5, None, WHOLE, "2.19"),
     ("hand", "relaxed", 1.0, None, {"skin.relief": 2.0}, "2.20, aged hand"),
 )
 FACES: tuple[tuple[dict[str, Any], str], ...] = (

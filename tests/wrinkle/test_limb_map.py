@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import trimesh
 
-from headstudio.head.limbs import makehuman_hand
+from headstudio.head.limbs import makehuman_foot, makehuman_hand
 from headstudio.head.mesh import TriangleMesh
 from headstudio.wrinkle.body_part import split_at_seams
 from headstudio.wrinkle.hand import Hand
 from headstudio.wrinkle.hand_settings import HandSettings
-from headstudio.wrinkle.limb_map import long_side, with_map
+from headstudio.wrinkle.limb_map import long_side, share_of_largest_piece, with_map
 from headstudio.wrinkle.mapping import own_coordinates
 from headstudio.wrinkle.one_to_one import signed_areas
 from headstudio.wrinkle.projection import TextureMapError
@@ -85,3 +85,11 @@ def test_what_is_no_ball_is_refused_in_one_line():
 
 def test_the_long_side_of_an_egg():
     np.testing.assert_allclose(np.abs(long_side(egg())), [0, 1, 0], atol=1e-6)
+
+
+def test_how_much_of_a_limb_its_own_map_holds_in_one_piece():
+    foot = makehuman_foot()
+    assert 0.6 < share_of_largest_piece(foot.skin) < 0.9  # the leg is on another piece
+    bare = TriangleMesh(foot.skin.vertices, foot.skin.faces)
+    assert share_of_largest_piece(bare) == 0.0
+    assert share_of_largest_piece(with_map(bare)) == pytest.approx(1.0)

@@ -19,7 +19,7 @@ from ..scene.document import Document
 from ..wrinkle.hand import Hand
 from ..wrinkle.hand_settings import HandSettings
 from ..wrinkle.joint_furrows import joint_furrows
-from ..wrinkle.limb_map import long_side, with_map
+from ..wrinkle.limb_map import long_side, share_of_largest_piece, with_map
 from ..wrinkle.wrinkled_limb import WrinkledLimb
 from .pictures import Photographer, Size, check_is_picture, save_picture
 from .reporting import say, warn, working
@@ -27,6 +27,8 @@ from .reporting import say, warn, working
 LIMBS = ("hand", "arm", "foot")
 # How much of what is looked at from close by is seen [m].
 _CLOSE = 0.042
+# A map that comes with a limb serves when its largest piece holds this part of the skin: only there are fine wrinkles.
+_MAPPED = 0.95
 
 
 def limb(
@@ -46,7 +48,7 @@ def limb(
         warn(f"{which} has no skeleton of a hand: it stays as it is, without lines on its joints")
     posed = Hand(part).pose(hand) if posable else part.skin.vertices
     with working("laying out the skin"):
-        limb_skin = part.skin if part.skin.corner_uv is not None else _laid_out(part, posable)
+        limb_skin = part.skin if share_of_largest_piece(part.skin) > _MAPPED else _laid_out(part, posable)
     strength = 2.0 * document.head.age if wrinkles and document.wrinkle.shown else 0.0
     fine = assign(document, {"fine.on": wrinkles and document.fine.on}).fine
     along, bare = _directions(which, posable, part.skin)

@@ -16,7 +16,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.repair import edge_neighbours, face_components, non_manifold_edge_count
-from .body_part import Mask
+from .body_part import Mask, split_at_seams
 from .mapping import fitted
 from .projection import Layout, TextureMapError, border_cycles
 from .relaxation import relax
@@ -31,6 +31,15 @@ _EVENED = 2
 _STRAIGHTENED = 2.0
 # Patches of one side inside the other are given up so often before the surface counts as none that can be opened.
 _PASSES = 50
+
+
+def share_of_largest_piece(limb: TriangleMesh) -> float:
+    """How much of a limb's area is on the largest piece of its own texture map, 0 to 1; 0 where it has none."""
+    if limb.corner_uv is None:
+        return 0.0
+    opened = split_at_seams(limb).mesh
+    areas = np.bincount(face_components(opened.faces), opened.face_areas)
+    return float(areas.max() / areas.sum())
 
 
 def with_map(limb: TriangleMesh, spread_out: Floats | None = None) -> TriangleMesh:
