@@ -14,6 +14,7 @@ uniform vec3 sky_below;
 uniform vec3 upward;           // in the head frame
 uniform vec3 body_mean;        // radiance of the body in the mean
 uniform float bias;            // [m]
+uniform float clear;           // so near to a place there is no strand [m]
 layout(location = 0) out vec4 red;
 layout(location = 1) out vec4 green;
 layout(location = 2) out vec4 blue;
@@ -52,12 +53,13 @@ void main() {
     float margin = 0.5 * bias / body_sphere.w;
     for (int k = 0; k < textureSize(directions, 0).y; ++k) {
         vec3 direction = texelFetch(directions, ivec2(2, k), 0).xyz;
+        vec3 start = place + clear * direction;
         vec3 at = box_of(k, body_sphere, place);
         vec4 basis = vec4(1.0, 3.0 * direction);
         vec3 light;
         if (body_by(k, at).a > at.z - margin) {
             open += 1.0;
-            light = mix(sky_below, sky_above, 0.5 + 0.5 * dot(direction, upward)) * exp(-lost * hair_crossed_by(k, place));
+            light = mix(sky_below, sky_above, 0.5 + 0.5 * dot(direction, upward)) * exp(-lost * hair_crossed_by(k, start));
         } else {
             vec3 behind = box_of(k ^ 1, body_sphere, place);
             vec4 wall = body_by(k ^ 1, behind);
@@ -67,7 +69,7 @@ void main() {
                 continue;
             }
             vec3 there = place + direction * max((wall.a - behind.z) * 2.0 * body_sphere.w, 0.0);
-            float crossed = hair_crossed_by(k ^ 1, there) - hair_crossed_by(k ^ 1, place);
+            float crossed = max(hair_crossed_by(k ^ 1, there) - hair_crossed_by(k ^ 1, start), 0.0);
             light = wall.rgb * exp(-lost * crossed);
         }
         known += 1.0;

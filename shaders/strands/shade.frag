@@ -70,15 +70,18 @@ void main() {
     float texels = 2.0 * point.w * light_widening * float(textureSize(near_counts, 0).x) / box_size;
     float own = texel.x + texel.y * point_row < light_points ? own_count(texels) : 0.0;
     vec2 count = hair_crossed(at, own);
-    float above = count.x;
-    float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - own - above, 0.0);
-    float crossed = shadow.x < 0.5 ? 0.0 : above;
+    // No other strand is so near that its half chord and this one's, pi / 4 radii each in the mean, would meet: of what the
+    // map has counted on the last of the way there is nothing, for strands do not stand in one another.
+    float cos_in = sqrt(max(1.0 - sin_in * sin_in, 1e-6));
+    float radius_count = count.y * point.w / (box_size * cos_in);
+    float met = shadow.x < 0.5 ? 0.0 : count.x;
+    float clear = min(0.5 * pi * radius_count, met), crossed = met - clear;
+    float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - own - count.x, 0.0);
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
 
     mat4x3 sent_in = albedo(sin_in, absorption), sent = albedo(sin_out, absorption);
     Pile pile_in = pile(on(sent_in), back(sent_in)), pile_out = pile(on(sent), back(sent));
-    float cos_in = sqrt(max(1.0 - sin_in * sin_in, 1e-6));
-    float direct = exp(-crossed_unseen(crossed, count.y * point.w / (box_size * cos_in), phi));
+    float direct = exp(crossed_unseen(clear, radius_count, phi) - crossed_unseen(met, radius_count, phi));
     vec3 passed = passing(pile_in, crossed, behind), scattered = passed - exp(-crossed);
 
     mat4x3 soft = soft_light(point.xyz);

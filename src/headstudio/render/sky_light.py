@@ -115,10 +115,10 @@ class SkyLight:
                 self._surface.render(vertices=self._corners)
             target.viewport = (0, 0, *target.size)
 
-    def gather(self, places: Floats, sky: Sky, lost: Floats) -> Floats:
+    def gather(self, places: Floats, sky: Sky, lost: Floats, clear: float = 0.0) -> Floats:
         """The light that arrives at ``places`` [m], (n, 3): mean and slope for every colour, (n, 3, 4).
 
-        lost: of light that meets a strand, the part that does not go on, RGB.
+        lost: of light that meets a strand, the part that does not go on, RGB. clear: no strand is so near to a place [m].
         """
         self._frames.use(1)
         self._body.use(2)
@@ -126,7 +126,8 @@ class SkyLight:
             self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=self._tiles,
             body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
             lost=tuple(lost), sky_above=tuple(sky.above),
-            sky_below=tuple(sky.below), upward=tuple(sky.upward), body_mean=tuple(self._mean), bias=_BIAS, **self._hair.bind(3),
+            sky_below=tuple(sky.below), upward=tuple(sky.upward), body_mean=tuple(self._mean), bias=_BIAS, clear=clear,
+            **self._hair.bind(3),
         )  # fmt: skip
 
 

@@ -35,6 +35,10 @@ _ROOM, _TO_SAMPLE = 0.5, 0.75
 # Pieces no longer than this part of them may be found to be hidden.
 _MOST_PIECES = 0.95
 
+# Strands do not stand in one another: half a chord of each, pi / 4 radii, is between two, and across a strand a way from
+# anywhere is pi / 2 times as long as the straight one, in the mean. So far is another strand, in widths.
+_CLEAR = np.pi**2 / 8
+
 # No fewer strands are drawn, however small they are seen.
 _FEWEST = 2_000
 
@@ -188,7 +192,8 @@ class StrandHair:
         """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
         if self._soft is not None:
             self._soft.release()
-        self._soft = LightVolume(self._context, self._grid, sky_light.gather(self._grid.places, sky, lost))
+        light = sky_light.gather(self._grid.places, sky, lost, _CLEAR * self.survey.width)
+        self._soft = LightVolume(self._context, self._grid, light)
 
     def sent_on(self, material: StrandMaterial) -> tuple[Floats, Floats]:
         """Of light that meets a strand, what goes on and what comes back, RGB, (3,) each, in the mean over the hair."""
