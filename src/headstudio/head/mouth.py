@@ -27,9 +27,9 @@ _GROOVE = 0.045
 # In parts of the height of the head. Half the width of a row of teeth and its depth; how far behind the seam it begins.
 _HALF_ROW, _ROW, _BEHIND = 0.142, 0.195, 0.040
 # From the seam down: edge and end of the gum of the upper and of the lower row; upper teeth bite over the lower.
-_UPPER, _LOWER = (0.012, -0.048), (0.009, 0.052)
+_UPPER, _LOWER = (0.012, -0.048), (0.009, 0.043)
 # Middle of the tongue, down and back from the seam, and its half axes.
-_TONGUE_LIES = (0.072, 0.165)
+_TONGUE_LIES = (0.046, 0.165)
 _TONGUE = (0.088, 0.032, 0.115)
 # All of these stay so far behind skin, which will move.
 _CLEAR = 0.022

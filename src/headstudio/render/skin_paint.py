@@ -12,8 +12,9 @@ from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..lcp.model import HairModel
 
-# From the edge of a tooth to where its gum begins [m].
+# From the edge of a tooth to where its gum begins in front [m], and how much of that is left at the ends of a row.
 _CROWN = (0.0085, 0.0105)
+_MOLAR = 0.55
 # So far behind the front teeth a mouth is dark [m].
 _MOUTH_DEPTH = 0.022
 # Skin nearer than this to a root [m] is covered, and bare beyond the second.
@@ -65,9 +66,10 @@ def dental_arch(teeth: TriangleMesh) -> Floats:
 
 def gums(teeth: TriangleMesh, upper: bool) -> Floats:
     """Where a row of teeth is gum and no longer tooth, 0 to 1, (n,)."""
-    height = teeth.vertices[:, 1]
+    height, forward = teeth.vertices[:, 1], teeth.vertices[:, 2]
     beyond = height - height.min() if upper else height.max() - height
-    return _smoothstep(*_CROWN, beyond)
+    ahead = (forward - forward.min()) / np.ptp(forward)
+    return _smoothstep(*_CROWN, beyond / (_MOLAR + (1.0 - _MOLAR) * ahead))
 
 
 def mouth_light(part: Part, front: float) -> Floats:
