@@ -77,8 +77,8 @@ class StrandLayer:
         strands.look_from(view, stage.frame, canvas.height)
         strands.shade(strand_material(look))
         depth = canvas.depth_attachment
-        # Depth of several samples a pixel is in no texture, and cannot be read.
-        occluder = Occluder(depth, view) if isinstance(depth, moderngl.Texture) else None
+        # Reading depth back would hold up a frame of the window. That of several samples a pixel is in no texture.
+        occluder = Occluder(depth, view) if progress and isinstance(depth, moderngl.Texture) else None
         with self._context.scope(canvas, moderngl.BLEND | moderngl.DEPTH_TEST):
             canvas.depth_mask = False
             self._context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
