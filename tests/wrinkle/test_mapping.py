@@ -1,5 +1,6 @@
 """A body part in texture space: one to one, its topology kept, on everything that has a border."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,7 +12,7 @@ from headstudio.head.mesh import TriangleMesh
 from headstudio.wrinkle.body_part import body_part, face_part, split_at_seams
 from headstudio.wrinkle.mapping import map_face, map_head, map_to_texture
 from headstudio.wrinkle.one_to_one import distortion, signed_areas, why_not_one_to_one
-from headstudio.wrinkle.projection import Layout, TextureMapError
+from headstudio.wrinkle.projection import Layout, TextureMapError, axis_is_free
 from headstudio.wrinkle.texture_map import TextureMap
 
 from .skins import box_with_hole, cap, covering_counts, cut, horseshoe, sheet, sheet_with_holes, tube
@@ -173,3 +174,18 @@ def test_a_part_is_one_piece_without_pinched_vertices():
     assert (part.mesh.vertices[:, 0].max() <= 0.05 + 1e-9) or (part.mesh.vertices[:, 0].min() >= 0.05 - 1e-9)
     with pytest.raises(ValueError, match="no triangle"):
         body_part(flat, np.zeros(len(flat.faces), dtype=bool))
+
+
+def test_the_axis_keeps_within_a_neck_that_is_not_as_deep_as_most():
+    """From a nape so far forward the usual way to the middle of the neck leads out through the throat."""
+    head = mannequin()
+    nape = head.landmarks.nape + np.array([0.0, 0.0, 0.03])
+    _, texture_map = map_face(replace(head, landmarks=replace(head.landmarks, nape=nape)))
+    assert_one_to_one(texture_map)
+
+
+def test_an_axis_is_free_where_it_passes_no_triangle():
+    ring = tube()
+    middle = ring.bounds.mean(axis=0)
+    assert axis_is_free(ring, middle, np.array([0.0, 1.0, 0.0]))
+    assert not axis_is_free(ring, middle, np.array([1.0, 0.1, 0.03]))

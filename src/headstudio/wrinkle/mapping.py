@@ -11,7 +11,7 @@ from ..head.mesh import Floats, TriangleMesh
 from ..head.repair import face_components
 from .body_part import BodyPart, face_part, head_part
 from .one_to_one import why_not_one_to_one
-from .projection import Layout, TextureMapError, project_on_plane, roll_off_cylinder
+from .projection import Layout, TextureMapError, axis_is_free, project_on_plane, roll_off_cylinder
 from .relaxation import relax as relax_springs
 from .texture_map import TextureMap
 
@@ -19,8 +19,8 @@ METHODS = ("planar", "cylindrical", "uv")
 
 # Empty border around what is mapped, as a part of the unit square.
 _MARGIN = 0.02
-# From the nape to the middle of the neck [heights of the head].
-_NECK_RADIUS = 0.25
+# From the nape to the middle of the neck [heights of the head]: the first that keeps within it. Some necks are slim.
+_NECK_RADII = (0.25, 0.2, 0.15, 0.1, 0.05)
 
 
 def map_to_texture(
@@ -68,8 +68,9 @@ def map_face(head: Head) -> tuple[BodyPart, TextureMap]:
     # The axis runs through the middle of neck and skull: it leans forward, as heads do.
     part, skull, marks = face_part(head), _between_ears(head), head.landmarks
     height = marks.crown[1] - marks.chin[1]
-    neck = np.array([0.0, marks.nape[1], marks.nape[2] + _NECK_RADIUS * height])
-    return part, map_to_texture(part.mesh, "cylindrical", axis=skull, along=skull - neck)
+    ways = [skull - (marks.nape * [0, 1, 1] + [0, 0, radius * height]) for radius in _NECK_RADII]
+    along = next((way for way in ways if axis_is_free(part.mesh, skull, way)), ways[0])
+    return part, map_to_texture(part.mesh, "cylindrical", axis=skull, along=along)
 
 
 @lru_cache(maxsize=2)

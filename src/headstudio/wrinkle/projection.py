@@ -70,18 +70,8 @@ def roll_off_cylinder(mesh: TriangleMesh, axis: Floats | None = None, along: Flo
 
     Raises TextureMapError when the axis passes through the surface itself.
     """
-    middle = mesh.bounds.mean(axis=0) if axis is None else np.asarray(axis, dtype=np.float64)
-    up = _UP if along is None else np.asarray(along, dtype=np.float64) / np.linalg.norm(along)
-    front = np.array([0.0, 0.0, 1.0]) if abs(up[2]) < 0.9 else np.array([0.0, -np.sign(up[2]), 0.0])
-    front = front - (front @ up) * up
-    front /= np.linalg.norm(front)
-    right = np.cross(up, front)
-    local = (mesh.vertices - middle) @ np.stack([right, up, front], axis=1)
-
-    # Once around is 1; the front lies at one half.
-    around = (np.arctan2(local[:, 0], local[:, 2]) / (2 * np.pi) + 0.5) % 1.0
-    steps = around[np.roll(mesh.faces, -1, axis=1)] - around[mesh.faces]
-    jumps = -np.round(steps).astype(np.int64)
+    local = _about_axis(mesh, axis, along)
+    around, jumps = _around(local, mesh.faces)
     if jumps.sum(axis=1).any():
         raise TextureMapError("the axis of the cylinder passes through the surface; open this part of the body there")
     turns = np.concatenate([np.zeros((len(mesh.faces), 1), dtype=np.int64), np.cumsum(jumps[:, :2], axis=1)], axis=1)
@@ -90,6 +80,31 @@ def roll_off_cylinder(mesh: TriangleMesh, axis: Floats | None = None, along: Flo
     period = 2 * np.pi * radius
     layout = Layout(np.stack([around * period, local[:, 1]], axis=1), turns, period)
     return layout if _goes_around(mesh, layout) else _unrolled(mesh, layout)
+
+
+def axis_is_free(mesh: TriangleMesh, axis: Floats, along: Floats) -> bool:
+    """Whether a surface can be rolled off an axis: whether that passes through no triangle."""
+    _, jumps = _around(_about_axis(mesh, axis, along), mesh.faces)
+    return not jumps.sum(axis=1).any()
+
+
+def _about_axis(mesh: TriangleMesh, axis: Floats | None, along: Floats | None) -> Floats:
+    """Vertices from an axis that points up the second of three coordinates, with the front along the third, (n, 3)."""
+    middle = mesh.bounds.mean(axis=0) if axis is None else np.asarray(axis, dtype=np.float64)
+    up = _UP if along is None else np.asarray(along, dtype=np.float64) / np.linalg.norm(along)
+    front = np.array([0.0, 0.0, 1.0]) if abs(up[2]) < 0.9 else np.array([0.0, -np.sign(up[2]), 0.0])
+    front = front - (front @ up) * up
+    front /= np.linalg.norm(front)
+    local: Floats = (mesh.vertices - middle) @ np.stack([np.cross(up, front), up, front], axis=1)
+    return local
+
+
+def _around(local: Floats, faces: Ints) -> tuple[Floats, Ints]:
+    """How far around the axis vertices are, (n,), once around being 1 with the front at one half; and per corner of the
+    faces how often the way to the next one passes the seam, (m, 3)."""
+    around = (np.arctan2(local[:, 0], local[:, 2]) / (2 * np.pi) + 0.5) % 1.0
+    steps = around[np.roll(faces, -1, axis=1)] - around[faces]
+    return around, -np.round(steps).astype(np.int64)
 
 
 def loop_steps(layout: Layout, loop: Ints) -> Floats:
