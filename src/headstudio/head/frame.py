@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from .mesh import Floats
+from .neck import turned_by
 
 
 def _zeros() -> Floats:
@@ -58,5 +59,4 @@ class HeadFrame:
         ``head_weight`` is 1 on the head, 0 on the torso and between them on the neck, shape (n,). The rotation vector
         is weighted (not the matrix), so the neck twists without collapsing.
         """
-        turn = Rotation.from_rotvec(self.rotation.as_rotvec()[None, :] * head_weight[:, None])
-        return turn.apply(points) + self.translation
+        return turned_by(points, self.rotation.as_rotvec(), head_weight) + self.translation
