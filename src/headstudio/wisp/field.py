@@ -9,6 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..head.mesh import Floats
+from ..head.rows import row_unit
 from .ears import before_ears
 from .grid import Grid
 from .strands import Singles
@@ -72,7 +73,10 @@ def _back(places: Floats, styling: StylingSettings) -> Floats:
 
 
 def _forward(places: Floats, styling: StylingSettings) -> Floats:
-    return _fade(places[:, 2], 0.8, 1.3) * _along(places, 0, 0, 1)
+    # As a comb goes: over the top to the front, and down the forehead.
+    way = np.stack([0 * places[:, 0], -np.maximum(places[:, 2], 0.0), np.maximum(places[:, 1], 0.2)], axis=1)
+    before_ears = _fade(np.abs(places[:, 0]), 0.5, 1.0) * (1.0 - _fade(places[:, 1], -0.4, 0.0))
+    return before_ears * way / np.linalg.norm(way, axis=1, keepdims=True)
 
 
 def _left(places: Floats, styling: StylingSettings) -> Floats:
@@ -105,7 +109,10 @@ def _blown(places: Floats, styling: StylingSettings) -> Floats:
 def _parted(places: Floats, styling: StylingSettings) -> Floats:
     side = np.tanh(_beside_parting(places, styling) / 0.12)
     on_top = 1.0 - _fade(places[:, 1], 0.1, 0.6)
-    return on_top * np.outer(side, [1.0, 0.0, 0.0])
+    # As a comb goes: to the side, and down where the skull goes down.
+    over = np.maximum(side * places[:, 0], 0.0)
+    way = np.stack([side * np.maximum(places[:, 1], 0.3), -0.2 * over, 0 * side], axis=1)
+    return on_top * np.abs(side)[:, None] * row_unit(way, otherwise=np.zeros_like(way))
 
 
 def _beside_parting(places: Floats, styling: StylingSettings) -> Floats:
@@ -117,9 +124,11 @@ def _beside_parting(places: Floats, styling: StylingSettings) -> Floats:
 def _off_face(places: Floats, styling: StylingSettings) -> Floats:
     # Hair goes to the side of the parting that it comes from: across the forehead, not against itself.
     side = np.tanh(_beside_parting(places, styling) / 0.1)[:, None]
+    # Sideways before the forehead; beside it hair has arrived.
+    arrived = 1.0 - _fade(side[:, 0] * places[:, 0], 0.4, 1.0)
     before_face = (1.0 - _fade(places[:, 2], 0.1, 0.7)) * _fade(np.abs(places[:, 0]), 0.95, 1.3)
     below_hairline = _fade(places[:, 1], 0.8, 1.2)
-    return before_face * below_hairline * (side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))
+    return before_face * below_hairline * ((1.0 - arrived) * side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))
 
 
 def _inward(places: Floats, styling: StylingSettings) -> Floats:
