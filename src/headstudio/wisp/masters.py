@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..head.mesh import Floats
+from scipy.spatial import cKDTree
+
 from .catmull_rom import catmull_rom_matrix
 from .markov import Singles, synthesise, window_size, without_loose_end
 from .outlines import Outlines
@@ -17,6 +19,10 @@ from .settings import WispSettings
 
 # So many control points a Catmull-Rom spline needs to go once around a curl.
 CONTROLS_PER_PITCH = 7
+# So many neighbouring locks curl the same way.
+_IN_PATCH = 6
+# Were roots straight for the same way on all wisps, curls would begin in a line across the head.
+_SOONER_OR_LATER = (0.4, 1.6)
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +57,12 @@ def synthesise_details(outlines: Outlines, settings: WispSettings) -> Details:
     starts = window + (phase * (len(samples) - window)).astype(np.int64)
     offsets = synthesise(samples, window, settings.temperature, starts, per_segment * joints + 1, rng)
     spin = np.asarray(loose * rng.uniform(-math.pi, math.pi, wisps))
+    # Curls turn left or right as it comes. One prototype turns one way, and half of the locks are its mirror images.
+    offsets[..., 0] *= np.where(_patches(outlines.roots, rng) < 0.5 * loose, -1, 1).astype(np.float32)[:, None]
     offsets = _spun(offsets, spin)
     along: Floats = spacing * np.arange(offsets.shape[1], dtype=np.float64)
-    return Details(offsets * _onset(along, settings.straight_roots)[:, None], per_segment)
+    straight = settings.straight_roots * rng.uniform(*_SOONER_OR_LATER, wisps)
+    return Details(offsets * _onset(along, straight)[..., None], per_segment)
 
 
 def master_controls(outlines: Outlines, details: Details) -> Singles:
@@ -91,7 +100,18 @@ def _spun(offsets: Singles, angle: Floats) -> Singles:
     return np.stack([cosine * x - sine * y, sine * x + cosine * y, z], axis=-1)
 
 
-def _onset(along: Floats, straight: float) -> Singles:
-    """The part of its size that a detail has at a distance from the root [m], (n,)."""
-    part = np.clip(along / max(straight, 1e-9), 0.0, 1.0)
+def _patches(roots: Floats, rng: np.random.Generator) -> Floats:
+    """Even numbers from 0 to 1 that neighbours share, for wisps rooted at (W, 3) [m]: (W,). Each takes that of the nearest
+    of so many among them as have a patch of some breadth each.
+    """
+    count = max(len(roots) // _IN_PATCH, 1)
+    nearest = cKDTree(roots[rng.permutation(len(roots))[:count]]).query(roots)[1]
+    return rng.random(count)[nearest]
+
+
+def _onset(along: Floats, straight: Floats) -> Singles:
+    """The part of their size that details have at distances from the root [m], (n,), on strands whose roots are straight
+    for a way [m], (W,): (W, n).
+    """
+    part = np.clip(along / np.maximum(straight, 1e-9)[:, None], 0.0, 1.0)
     return (part * part * (3 - 2 * part)).astype(np.float32)

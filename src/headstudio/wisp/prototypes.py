@@ -150,8 +150,8 @@ def _to_and_fro(phase: Floats) -> Floats:
 # Sizes [m] of curls as hairdressers class them: wavy is 2B, loose curl 3A, tight curl 3C, coil 4A, kinky 4B.
 _SHIPPED: Mapping[str, Callable[[], Prototype]] = {
     "wavy": lambda: _helix(0.007, 0.055, 0.12, seed=1, flat=0.25),
-    "loose curl": lambda: _helix(0.009, 0.042, 0.1, seed=2),
-    "tight curl": lambda: _helix(0.0045, 0.018, 0.08, seed=3),
+    "loose curl": lambda: _helix(0.009, 0.042, 0.18, seed=2),
+    "tight curl": lambda: _helix(0.0045, 0.018, 0.18, seed=3),
     "coil": lambda: _helix(0.003, 0.010, 0.08, seed=4),
     "kinky": lambda: _zigzag(0.0026, 0.009, 0.2, seed=5, flat=0.8),
     "zigzag": lambda: _zigzag(0.0035, 0.014, 0.1, seed=6),
