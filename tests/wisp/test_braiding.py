@@ -6,7 +6,7 @@ import pytest
 from headstudio.wisp.braiding import braid_word, crossings, plait
 from headstudio.wisp.hairdressing import queues_of
 from headstudio.wisp.operations import Braid
-from headstudio.wisp.paths import sideways
+from headstudio.wisp.paths import hang, off_skin, outward, sideways
 
 from .dressed import body, hair, styled
 
@@ -94,3 +94,12 @@ def mean_curve(joints: np.ndarray, path: np.ndarray) -> np.ndarray:
         through = (np.abs(offset @ direction) < 0.002) & (np.linalg.norm(offset, axis=2) < 0.05)
         means.append(fine[through].mean(axis=0))
     return np.array(means)
+
+
+def test_a_rope_that_hangs_beside_the_neck_comes_to_lie_on_the_body():
+    surroundings = body()[2]
+    knot = off_skin(surroundings, surroundings.proportions.place(np.array([[0.0, 0.0, -1.05]])), 0.015)
+    rope = hang(surroundings, knot[0], outward(surroundings, knot)[0], 0.3, 0.015)
+    distance = surroundings.distance(rope)
+    assert distance.min() > 0.013
+    assert distance[-20:].max() < 0.03

@@ -58,6 +58,17 @@ def test_hair_combed_against_its_growth_leaves_the_skin_that_way(rest):
     np.testing.assert_allclose(rise[1], rise[0], atol=0.1)
 
 
+def test_hair_lies_on_the_hair_that_is_rooted_where_it_passes(rest):
+    _, _, surroundings = body()
+    joints = styled(rest, bending_stiffness=0.2, density_threshold=1.0, gravity=0.0, back=2.0)[0].joints
+    first, farther = (surroundings.distance(joints[:, k]) for k in (3, 12))
+    along_scalp = (joints[:, 0, 2] > 0.02) & (
+        joints[:, 12, 1] > surroundings.proportions.place(np.array([0, 0.5, 0]))[1]
+    )
+    assert along_scalp.sum() > 20
+    assert np.median(farther[along_scalp]) > np.median(first[along_scalp]) + 0.002
+
+
 def test_segments_keep_their_length_and_frames_stay_square(rest):
     laid, _ = styled(rest, blown=1.0)
     steps = np.linalg.norm(np.diff(laid.joints, axis=1), axis=2)

@@ -35,6 +35,7 @@ def test_the_field_is_the_weighted_sum_of_its_presets():
         ({"back": 1.0}, (0.0, 1.1, 0.0), (0, 0, -1)),
         ({"back": 1.0}, (0.0, 0.2, 1.1), (0, 1, 0)),
         ({"forward": 1.0}, (0.0, 1.0, 0.2), (0, 0, 1)),
+        ({"forward": 1.0}, (0.0, 0.3, 1.0), (0, -1, 0)),
         ({"left": 1.0}, (0.0, 1.0, 0.2), (1, 0, 0)),
         ({"right": 1.0}, (0.0, 1.0, 0.2), (-1, 0, 0)),
         ({"up": 1.0}, (0.0, 1.0, 0.2), (0, 1, 0)),
@@ -49,6 +50,16 @@ def test_the_field_is_the_weighted_sum_of_its_presets():
 def test_presets_pull_where_their_names_say(settings, place, direction):
     force = field_at([place], **{"gravity": 0.0, **settings})[0]
     assert force @ np.array(direction) > 0.8 * np.linalg.norm(force) > 0.2
+
+
+def test_hair_that_is_beside_the_head_is_pushed_down_and_no_farther_off():
+    beside = np.array([[1.1, y, z] for y in (-0.2, 0.1, 0.4) for z in (0.0, 0.4, 0.8)])
+    both = np.concatenate([beside, beside * [-1, 1, 1]])
+    away = np.sign(both[:, 0]) * field_at(both, gravity=0.0, off_face=1.0)[:, 0]
+    assert np.all(away < 0.05)
+    parted = field_at(both + np.array([0.0, 0.6, 0.0]), gravity=0.0, parted=1.0, parting=0.0)
+    assert np.all(parted[:, 1] <= 0.0)
+    assert parted[:, 1].min() < -0.2
 
 
 def test_hair_follows_a_stroke_inside_its_radius_and_not_far_away():

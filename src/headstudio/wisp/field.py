@@ -128,7 +128,11 @@ def _off_face(places: Floats, styling: StylingSettings) -> Floats:
     arrived = 1.0 - _fade(side[:, 0] * places[:, 0], 0.4, 1.0)
     before_face = (1.0 - _fade(places[:, 2], 0.1, 0.7)) * _fade(np.abs(places[:, 0]), 0.95, 1.3)
     below_hairline = _fade(places[:, 1], 0.8, 1.2)
-    return before_face * below_hairline * ((1.0 - arrived) * side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))
+    return (
+        before_face
+        * below_hairline
+        * ((1.0 - arrived) * side * np.array([0.85, 0.0, 0.0]) + np.array([0.0, 0.0, -0.35]))
+    )
 
 
 def _inward(places: Floats, styling: StylingSettings) -> Floats:

@@ -34,6 +34,9 @@ _WIDEN = 0.3
 
 # How far the middle of a wisp stays off the skin: a floor, and a part of its radius up to a bound [m].
 _CLEARANCE, _RADIUS_PART, _MOST_CLEARANCE = 0.0015, 0.3, 0.005
+# Hair lies on the hair that is rooted where it passes, the higher the farther it has come, and off the scalp on none: so
+# much higher at most [m], and at what distances from its own root [m] which part of it.
+_LAYERS, _OVER_ROOTS = 0.010, ((0.0, 0.03, 0.15, 0.28), (0.0, 0.4, 1.0, 0.0))
 
 
 @dataclass
@@ -66,6 +69,7 @@ class Flow:
         # By joint and wisp, in one row: what the j-th joint of wisp w has is in place j W + w.
         self._radii = np.ascontiguousarray(outlines.radii.T).ravel()
         self._clearances = np.minimum(_CLEARANCE + _RADIUS_PART * self._radii, _MOST_CLEARANCE)
+        self._layers = _LAYERS * np.interp(outlines.segment * np.arange(joints + 1), *_OVER_ROOTS)
         self._across, self._along = np.empty((3, joints * count)), np.empty((3, joints * count))
         self._ends = np.empty((3, count))
         # The frame of the next segment if nothing bent it, (3, W) each.
@@ -130,7 +134,11 @@ class Flow:
             combed = self._combed(start[:, rooted], straight[:, rooted], pull[:, rooted])
             across[:, rooted] = turn(across[:, rooted], straight[:, rooted], combed)
             straight[:, rooted] = combed
-        clearance = self._clearances.take(place + len(self.laid))
+        # Where hair is pressed together so are its layers, and none are rooted on an ear.
+        layer = np.sqrt(np.minimum(self._tau / ceiling, 1.0)) * self._layers.take(joint + 1)
+        lifted = at_ears(self._density.surroundings.proportions.measure(start.T)).nonzero()[0]
+        layer[lifted] = 0.0
+        clearance = self._clearances.take(place + len(self.laid)) + layer
         wanted = most_aligned(pull, straight, self.stiffness)
         direction = self._slide(start, wanted, clearance)
         # The first segment stands in the head's own density, and cannot leave it.
@@ -142,7 +150,6 @@ class Flow:
         self._add(wisps, place, start + 0.5 * step, turned, direction, 1.0)
         self._ends[:, wisps] = start + step
         # An ear lifts hair as long as it lies on it, and does not throw it outward: what it bends springs back.
-        lifted = at_ears(self._density.surroundings.proportions.measure(start.T)).nonzero()[0]
         if len(lifted):
             direction[:, lifted] = wanted[:, lifted]
             turned[:, lifted] = turn(across[:, lifted], straight[:, lifted], wanted[:, lifted])

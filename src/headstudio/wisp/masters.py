@@ -6,10 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-
-from ..head.mesh import Floats
 from scipy.spatial import cKDTree
 
+from ..head.mesh import Floats
 from .catmull_rom import catmull_rom_matrix
 from .markov import Singles, synthesise, window_size, without_loose_end
 from .outlines import Outlines
@@ -61,8 +60,10 @@ def synthesise_details(outlines: Outlines, settings: WispSettings) -> Details:
     offsets[..., 0] *= np.where(_patches(outlines.roots, rng) < 0.5 * loose, -1, 1).astype(np.float32)[:, None]
     offsets = _spun(offsets, spin)
     along: Floats = spacing * np.arange(offsets.shape[1], dtype=np.float64)
-    straight = settings.straight_roots * rng.uniform(*_SOONER_OR_LATER, wisps)
-    return Details(offsets * _onset(along, straight)[..., None], per_segment)
+    sooner, later = _SOONER_OR_LATER
+    straight = settings.straight_roots * rng.uniform(sooner, later, wisps)
+    offsets *= _onset(along, straight)[..., None]
+    return Details(offsets, per_segment)
 
 
 def master_controls(outlines: Outlines, details: Details) -> Singles:

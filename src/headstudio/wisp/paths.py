@@ -12,6 +12,8 @@ from .surroundings import Surroundings
 
 _APPROACHES = 5
 STEP = 0.005  # between the points of a path [m]
+# A plait beside the body comes to lie on it: how strongly it is drawn there against its weight, and from how far [m].
+_TO_BODY, _BESIDE = 0.6, 0.08
 
 
 def off_skin(surroundings: Surroundings, points: Floats, clearance: float) -> Floats:
@@ -40,7 +42,10 @@ def hang(surroundings: Surroundings, start: Floats, first: Floats, length: float
     points = [np.asarray(start, dtype=np.float64)]
     direction = np.asarray(first, dtype=np.float64)
     for _ in range(max(round(length / STEP), 1)):
-        direction = row_unit((direction + 0.25 * down)[None], otherwise=down[None])[0]
+        distance, away = surroundings.distance_and_gradient(points[-1][None])
+        beside = 1.0 - min(max(float(distance[0]) - clearance, 0.0) / _BESIDE, 1.0)
+        pull = down - _TO_BODY * beside * away[0]
+        direction = row_unit((direction + 0.25 * pull)[None], otherwise=down[None])[0]
         free = off_skin(surroundings, (points[-1] + STEP * direction)[None], clearance)[0]
         direction = row_unit((free - points[-1])[None], otherwise=down[None])[0]
         points.append(points[-1] + STEP * direction)
