@@ -10,11 +10,15 @@ import numpy as np
 import pytest
 import trimesh
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
+from headstudio.head.head import Head
+from headstudio.head.mannequin import mannequin
 from headstudio.head.mesh import TriangleMesh
 from headstudio.params import assign
 from headstudio.render.detail import neighbours_together
 from headstudio.render.fine_relief import FineRelief
+from headstudio.render.head_shade import shade_of_head
 from headstudio.render.picture_area import Outline
 from headstudio.render.renderer import Renderer
 from headstudio.render.skin_shape import curvature_of, faded_in, hidden_in_creases, hidden_in_mouth
@@ -24,6 +28,8 @@ from headstudio.scene.document import Document
 from headstudio.scene.settings import SKIN_SHOWS, Camera, Look
 from headstudio.scene.skin_settings import SkinSettings
 from headstudio.scene.stage import Stage
+from headstudio.wrinkle.face import WIDEST_JAW, Face
+from headstudio.wrinkle.face_settings import FaceSettings
 from headstudio.wrinkle.fine_settings import FineSettings
 from headstudio.wrinkle.limb_skin import grow_limb_skin
 from headstudio.wrinkle.living_skin import LivingSkin, Skin
@@ -250,11 +256,28 @@ def test_a_limb_is_drawn_with_its_fine_wrinkles(camera_man: Renderer) -> None:
     assert roughness(pictures[0].astype(np.uint8)) > 2 * roughness(pictures[1].astype(np.uint8))
 
 
-def test_a_mouth_darkens_with_depth_and_lips_keep_their_light() -> None:
-    hidden = hidden_in_mouth(np.linspace(0.0, 0.02, 50))
-    assert hidden[0] == 0.0
-    assert (np.diff(hidden) >= 0).all()
-    assert 0.9 < hidden[-1] < 1.0
+def test_lips_come_to_light_as_the_jaw_opens(gl: moderngl.Context) -> None:
+    """What a mouth hides it hides less and less, and next to nothing of lips that are wide apart."""
+    shut = np.array([0.0, 0.5, 1.0])
+    hidden = np.stack([hidden_in_mouth(shut, jaw) for jaw in np.linspace(0.0, WIDEST_JAW, 20)])
+    np.testing.assert_allclose(hidden[0], shut)
+    np.testing.assert_allclose(hidden[-1], 0.0)
+    assert (np.diff(hidden, axis=0) <= 0).all()
+
+    head = mannequin()
+    face = Face(head)
+    wide = face.posed_head(face.pose(FaceSettings(jaw_open=1.0)))
+    rest, shade = shade_of_head(gl, head), shade_of_head(gl, head, wide)
+    np.testing.assert_allclose(1 - (1 - shade.skin) * (1 - shade.mouth), rest.skin, atol=1e-6)
+    edge = find_seam_vertices(head)
+    assert rest.skin[edge].mean() > 0.7
+    assert shade.skin[edge].mean() < 0.55
+
+
+def find_seam_vertices(head: Head) -> NDArray[np.int64]:
+    """Where both lips have a vertex in one place, in the middle half of the mouth."""
+    pairs = cKDTree(head.skin.vertices).query_pairs(1e-9, output_type="ndarray").ravel()
+    return pairs[np.abs(head.skin.vertices[pairs, 0]) < 0.5 * head.landmarks.mouth_left[0]]
 
 
 def test_skin_beyond_the_map_of_fine_wrinkles_needs_no_bumps(

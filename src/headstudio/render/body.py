@@ -9,12 +9,13 @@ from ..head.frame import HeadFrame
 from ..head.head import Head
 from ..scene.settings import Look
 from ..scene.skin_settings import SkinSettings
-from .body_parts import BodyParts, hidden_of_head
+from .body_parts import BodyParts
 from .buffers import bytes_of, floats_of, indices_of
 from .context import load_program, set_uniforms
 from .detail import Surface, casting_shadows, neighbours_together
 from .detailed_faces import DetailedFaces
 from .hair_ground import Growth, ground_colour, ground_cover, same_ground
+from .head_shade import shade_of_head
 from .openings import Openings
 from .scene_block import linear
 from .screen import ScreenPasses
@@ -44,10 +45,10 @@ class Body:
         self._growth: Growth = None
         self._openings = Openings(head.skin)
         skin = head.skin
-        hidden_skin, hidden_parts = hidden_of_head(context, head)
+        shade = shade_of_head(context, head)
         corners = np.concatenate([skin.vertices, skin.vertex_normals, head.head_weight[:, None]], axis=1)
         vertices = context.buffer(floats_of(corners))
-        painted = np.column_stack([hidden_skin, paint(head)])
+        painted = np.column_stack([shade.skin, paint(head)])
         surface = Surface(
             neighbours_together(skin.faces, skin.vertices), skin.vertices, skin.vertex_normals, painted[:, :3]
         )
@@ -73,7 +74,7 @@ class Body:
             [(vertices, "3f 12x 1f", "position", "head_weight")],
             context.buffer(indices_of(casting_shadows(skin))),
         )
-        self._parts = BodyParts(context, programs.part, head, hidden_parts)
+        self._parts = BodyParts(context, programs.part, head, shade.parts)
 
     def set_roots(self, growth: Growth) -> None:
         """Cover the skin that ``growth`` grows from; sent again only for other roots."""

@@ -15,26 +15,12 @@ from .context import set_uniforms
 from .detail import Surface
 from .detailed_faces import DetailedFaces
 from .scene_block import linear
-from .skin_paint import dental_arch, gums, mouth_light, standing_out
-from .sky import hidden_from_sky
+from .skin_paint import dental_arch, gums, standing_out
 from .view import View
 
 # How part.frag tells the parts apart.
 _KINDS = {"eye": 0, "teeth": 1, "tongue": 2, "lashes": 3, "brows": 3, "other": 4}
-_IN_MOUTH = ("teeth", "tongue")
 _HAIRS = ("lashes", "brows")
-
-
-def hidden_of_head(context: moderngl.Context, head: Head) -> tuple[Floats, list[Floats]]:
-    """The part of the sky that the skin at rest hides from every vertex of the skin, (n,), and of each part."""
-    meshes = [head.skin, *(part.mesh for part in head.parts)]
-    points = np.concatenate([mesh.vertices for mesh in meshes])
-    normals = np.concatenate([mesh.vertex_normals for mesh in meshes])
-    hidden = hidden_from_sky(context, head.skin, points, normals)
-    skin, *parts = np.split(hidden, np.cumsum([len(mesh.vertices) for mesh in meshes])[:-1])
-    # Behind lips at rest all would be dark; what shows of a mouth shows because it is open.
-    front = max((part.mesh.bounds[1, 2] for part in head.parts if part.kind in _IN_MOUTH), default=0.0)
-    return skin, [mouth_light(part, front) if part.kind in _IN_MOUTH else own for part, own in zip(head.parts, parts)]
 
 
 class BodyParts:
@@ -43,7 +29,7 @@ class BodyParts:
     def __init__(
         self, context: moderngl.Context, program: moderngl.Program, head: Head, hidden: Sequence[Floats]
     ) -> None:
-        """hidden: of the sky, of every vertex of each part, see ``hidden_of_head``."""
+        """hidden: of the sky, of every vertex of each part, see ``HeadShade``."""
         self._program = program
         self._shown = list(head.parts)
         details = [_detail(head, part) for part in head.parts]

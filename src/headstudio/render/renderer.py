@@ -218,7 +218,7 @@ class Renderer:
         else:
             if not isinstance(known, LivingBody) or known.surface is not stage.skin.surface:
                 before = known if isinstance(known, LivingBody) else None
-                known = LivingBody(self.context, self._skin_programs, stage.skin.surface, before)
+                known = LivingBody(self.context, self._skin_programs, stage.skin.surface, stage.skin.face, before)
             known.pose(stage.skin, look)
         self._body = known
         return known

@@ -10,13 +10,13 @@ from scipy.spatial import cKDTree
 
 from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
+from ..head.mouth import lines_mouth
+from ..head.sight import lip_seam
 from ..lcp.model import HairModel
 
 # From the edge of a tooth to where its gum begins in front [m], and how much of that is left at the ends of a row.
 _CROWN = (0.0085, 0.0105)
 _MOLAR = 0.55
-# So far behind the front teeth a mouth is dark [m].
-_MOUTH_DEPTH = 0.022
 # Skin nearer than this to a root [m] is covered, and bare beyond the second.
 _SCALP_REACH = (0.006, 0.016)
 
@@ -46,7 +46,7 @@ def paint(head: Head) -> Floats:
     points, marks = head.skin.vertices, head.landmarks
     has_brows = any(part.kind == "brows" for part in head.parts)
     brows = np.zeros(len(points)) if has_brows else _brows(points, marks)
-    return np.stack([_lips(points, marks), brows, _flush(points, marks)], axis=1)
+    return np.stack([_lips(head), brows, _flush(points, marks)], axis=1)
 
 
 def standing_out(head: Head, part: Part) -> Floats:
@@ -72,15 +72,6 @@ def gums(teeth: TriangleMesh, upper: bool) -> Floats:
     return _smoothstep(*_CROWN, beyond / (_MOLAR + (1.0 - _MOLAR) * ahead))
 
 
-def mouth_light(part: Part, front: float) -> Floats:
-    """How much of the sky a part of the mouth never sees, however far it opens: more from front to back, (n,).
-
-    front: where the foremost teeth are, along z [m].
-    """
-    behind = front - part.mesh.vertices[:, 2]
-    return 0.3 + 0.67 * np.clip(behind / _MOUTH_DEPTH, 0.0, 1.0)
-
-
 def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
     """How densely hair roots stand on the skin, 0 to 1, (n,): the ground that hair grows from is never bare skin."""
     if hair is None or hair.count == 0:
@@ -104,41 +95,26 @@ def _face_axes(marks: Landmarks) -> tuple[Floats, Floats]:
     return left, up / np.linalg.norm(up)
 
 
-def _lips(points: Floats, marks: Landmarks) -> Floats:
-    """Red of the lips: between two arcs from corner to corner of the mouth."""
+def _lips(head: Head) -> Floats:
+    """Red of the lips: between two arcs from corner to corner of the mouth, beside where they meet; and of all behind them."""
+    points, marks = head.skin.vertices, head.landmarks
     left, up = _face_axes(marks)
     out = np.cross(left, up)
     middle = (marks.mouth_left + marks.mouth_right) / 2
     half = float(np.linalg.norm(marks.mouth_left - marks.mouth_right)) / 2
     across, height, depth = ((points - middle) @ axis / half for axis in (left, up, out))
+    seam = lip_seam(head.skin, marks)
+    seam_across, seam_height = ((seam - middle[:2]) @ axis[:2] / half for axis in (left, up))
     arch = np.sqrt(np.clip(1 - across**2, 0, 1))
-    height = height - _mouth_line(across, height, depth) * np.clip(1 - across**2, 0, 1)
+    height = height - np.interp(across, seam_across, seam_height)
     bow = 1 - 0.20 * np.exp(-((across / 0.16) ** 2))
     # The red reaches a little around the corners, where an open mouth shows what lay between the lips.
     corner = 0.07 * (1 - _smoothstep(1.0, 1.12, np.abs(across)))
     upper, lower = np.maximum(0.34 * arch * bow, corner), np.maximum(0.44 * arch, corner)
     inside = np.where(height > 0, height / np.maximum(upper, 1e-6), -height / np.maximum(lower, 1e-6))
     front = _smoothstep(-1.7, -0.7, depth)
-    return (1 - _smoothstep(0.75, 1.15, inside)) * front * (np.abs(across) < 1.12)
-
-
-def _mouth_line(across: Floats, height: Floats, depth: Floats) -> float:
-    """Height at which the lips meet in the middle, above the corners; all in half widths of the mouth.
-
-    In profile the lips stand out above and below the line where they meet: it is the deepest notch between two bulges.
-    """
-    near = (np.abs(across) < 0.15) & (np.abs(height) < 0.7) & (np.abs(depth) < 1.5)
-    bins = np.linspace(-0.7, 0.7, 22)
-    profile = np.full(len(bins), -np.inf)
-    np.maximum.at(profile, np.clip(np.searchsorted(bins, height[near]), 0, len(bins) - 1), depth[near])
-    seen = np.isfinite(profile)
-    if not seen.any():
-        return 0.0
-    profile = np.interp(bins, bins[seen], profile[seen])
-    above = np.maximum.accumulate(profile[::-1])[::-1]
-    notch = np.minimum(np.maximum.accumulate(profile), above) - profile
-    deepest = int(np.argmax(notch))
-    return float(bins[deepest]) if notch[deepest] > 0 else 0.0
+    lips = (1 - _smoothstep(0.75, 1.15, inside)) * front * (np.abs(across) < 1.12)
+    return np.where(lines_mouth(head.skin, marks), 1.0, lips)
 
 
 def _brows(points: Floats, marks: Landmarks) -> Floats:

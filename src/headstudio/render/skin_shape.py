@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints, TriangleMesh
+from ..wrinkle.face import WIDEST_JAW
 from ..wrinkle.fine_wrinkles import FineWrinkles
 from ..wrinkle.limb_skin import LimbSkin, PosedLimb
 from ..wrinkle.living_skin import LivingSkin, SkinSurface
@@ -19,17 +20,13 @@ from .skin_paint import paint
 from .skin_values import limb_values, shown_values
 
 MOST_HIDDEN = 0.95
-"""Of the sky, at rest: a mouth or an eye that is closed may open."""
+"""Of the sky, at rest: an eye that is closed may open, and some light comes back from the deepest walls."""
 
 BLOOD_MEAN = 0.35
 """How much blood is painted where skin is neither flushed nor pale."""
 
 # What counts as the surroundings of a place in a furrow [m].
 _BESIDE = 0.003
-# Lips keep their light as far as this behind where they meet, and a mouth is dark beyond the second [m].
-_LIP, _DARK_MOUTH = 0.0005, 0.007
-# Some light comes back from the walls of the deepest mouth.
-_DARKEST = 0.98
 # Fine wrinkles fade out over this much of the skin at the border of their map [m].
 _FADE = 0.015
 # Blotches of blood under the skin: sizes [m], how many waves of each, and how deep they are.
@@ -141,19 +138,17 @@ def limb_shape_of(skin: LimbSkin, hidden: Floats) -> SkinShape:
     )
 
 
-def pose_of(skin: LivingSkin, shows: str) -> SkinPose:
-    """A living skin as it is drawn; ``shows`` is ``Look.skin_shows``."""
-    hidden = hidden_in_creases(skin.skin.height)
-    if skin.drawn_in.max() > _LIP:
-        hidden = np.maximum(hidden, skin.surface.spread(hidden_in_mouth(skin.drawn_in)))
+def pose_of(skin: LivingSkin, shows: str, mouth: Floats) -> SkinPose:
+    """A living skin as it is drawn; ``shows`` is ``Look.skin_shows``. mouth: what it hides while it is shut, (N,)."""
+    hidden = 1.0 - (1.0 - hidden_in_creases(skin.skin.height)) * (1.0 - hidden_in_mouth(mouth, skin.jaw))
     return SkinPose(skin.skin.positions, skin.skin.normals, skin.amplitudes, hidden, shown_values(shows, skin))
 
 
-def smooth_pose_of(skin: LivingSkin, shows: str) -> SkinPose:
+def smooth_pose_of(skin: LivingSkin, shows: str, mouth: Floats) -> SkinPose:
     """The same skin without a wrinkle."""
     surface = skin.surface
     normals = unit(surface.spread(surface.head.skin.moved(skin.posed).vertex_normals))
-    hidden = surface.spread(hidden_in_mouth(skin.drawn_in))
+    hidden = hidden_in_mouth(mouth, skin.jaw)
     return SkinPose(surface.spread(skin.posed), normals, np.zeros((len(normals), 2)), hidden, shown_values(shows, skin))
 
 
@@ -218,10 +213,11 @@ def curvature_of(mesh: TriangleMesh) -> Floats:
     return curvature
 
 
-def hidden_in_mouth(depth: Floats) -> Floats:
-    """How much of the light misses skin that lines an open mouth, 0 to 1, (n,). depth: behind the lips [m], (n,)."""
-    seen = 1.0 - np.clip((depth - _LIP) / (_DARK_MOUTH - _LIP), 0.0, 1.0)
-    hidden: Floats = _DARKEST * (1.0 - seen**3)
+def hidden_in_mouth(shut: Floats, jaw: float) -> Floats:
+    """How much of the light misses what a mouth hides, 0 to 1, (n,), with the jaw open by an angle [rad]. shut: the same
+    of a mouth that is shut, (n,). Most of the light comes with the first part of the way."""
+    way = min(jaw / WIDEST_JAW, 1.0)
+    hidden: Floats = shut * (1.0 - way) ** 2
     return hidden
 
 

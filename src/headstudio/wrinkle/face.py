@@ -24,7 +24,8 @@ _NEGLIGIBLE = 1e-6
 _SHARED = 0.045
 # How much of the turn of an eye its lids follow.
 _UPPER_FOLLOWS, _LOWER_FOLLOWS = 0.7, 0.35
-_WIDEST_JAW = np.radians(26.0)
+WIDEST_JAW = float(np.radians(26.0))
+"""How far the jaw opens at most [rad]."""
 _Motion = EyeMotion | JawPartMotion | LashMotion | BrowMotion
 _SHOWN = {**EXPRESSIONS, "blink": BLINK}
 
@@ -32,11 +33,11 @@ _SHOWN = {**EXPRESSIONS, "blink": BLINK}
 @dataclass(frozen=True, eq=False)
 class FacePose:
     """A face at one instant. positions: of every vertex of the skin [m], (n, 3). parts: those of the head, moved; a part
-    that rests is the head's own object. drawn_in: how far each vertex has gone behind the lips of an open mouth [m], (n,)."""
+    that rests is the head's own object. jaw: how far it is open [rad]."""
 
     positions: Floats
     parts: tuple[Part, ...]
-    drawn_in: Floats
+    jaw: float
 
 
 @dataclass(frozen=True)
@@ -94,14 +95,14 @@ class Face:
 
         thickness: of the tissue under every vertex of the skin at rest [m], (n,); None leaves the skin unlifted.
         """
-        positions, drawn_in = self.skin_at(settings, thickness)
-        return FacePose(positions, self.parts_on(positions, settings), drawn_in)
+        positions, jaw = self.skin_at(settings, thickness)
+        return FacePose(positions, self.parts_on(positions, settings), jaw)
 
-    def skin_at(self, settings: FaceSettings, thickness: Floats | None = None) -> tuple[Floats, Floats]:
-        """What ``pose`` does to the skin alone: its positions [m], (n, 3), and how far it is drawn in [m], (n,)."""
+    def skin_at(self, settings: FaceSettings, thickness: Floats | None = None) -> tuple[Floats, float]:
+        """What ``pose`` does to the skin alone: its positions [m], (n, 3), and how far the jaw is open [rad]."""
         strengths = _strengths(settings)
         if not strengths and settings.jaw_open == 0:
-            return self._rest, self._jaw.drawn_in(0.0)
+            return self._rest, 0.0
         drive = self._drive(strengths, settings.jaw_open)
         positions = self._rest + (
             self._fields @ self._activity(strengths, self._share_of_units(settings.driver))
@@ -118,7 +119,7 @@ class Face:
             positions = self._tissue.lifted(positions, lift * thickness)
         for lids in self._lids.values():
             positions[lids.vertices] = lids.cleared(positions[lids.vertices])
-        return positions, self._jaw.drawn_in(drive.jaw)
+        return positions, drive.jaw
 
     def parts_on(self, positions: Floats, settings: FaceSettings) -> tuple[Part, ...]:
         """The parts of the head on a skin that ``settings`` have brought to ``positions`` [m], (n, 3)."""
@@ -173,7 +174,7 @@ class Face:
             if side in self._lids:
                 upper[side] += _UPPER_FOLLOWS * gaze[side] / self._lids[side].largest_fall
                 lower[side] -= _LOWER_FOLLOWS * gaze[side] / self._lids[side].largest_rise
-        return _Drive(min(jaw, _WIDEST_JAW), upper, lower, gaze)
+        return _Drive(min(jaw, WIDEST_JAW), upper, lower, gaze)
 
     def _posed_part(self, index: int, positions: Floats, drive: _Drive) -> Part:
         motion = self._motions[index]
@@ -215,8 +216,8 @@ class Face:
         for lids in self._lids.values():
             moved[lids.vertices] = True
         faces = self.head.skin.faces
-        # What is stretched to line an open mouth says nothing of the skin beside it.
-        found: Ints = faces[moved[faces].any(axis=1) & ~(self._jaw.hollow[faces] > 0).any(axis=1)]
+        # What lines an open mouth says nothing of the skin beside it.
+        found: Ints = faces[moved[faces].any(axis=1) & ~self._jaw.lining[faces].any(axis=1)]
         return found
 
 

@@ -1,8 +1,8 @@
 """The lower jaw: a hinge in front of the ears that takes chin, lower lip, lower teeth and tongue along.
 
 How much of its turn a point of the skin takes is 1 where the jawbone carries it and 0 where the skull does; between them
-it spreads over the surface as a harmonic function, led along the lips. Upper and lower lip meet in space and not on the
-surface, so a mouth that is open in the mesh parts, and one that is a groove stretches at the bottom of it.
+it spreads over the surface as a harmonic function, led along the lips. These meet in space and not on the surface, which
+goes from one to the other around the inside of the mouth (head/mouth.py).
 """
 
 from __future__ import annotations
@@ -11,13 +11,15 @@ from dataclasses import dataclass
 
 import igl
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 from scipy.spatial.transform import Rotation
 
 from ..head.head import Head, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
-from ..head.mouth import lip_seam, seen_from_front
+from ..head.mouth import lines_mouth
+from ..head.sight import lip_seam, seen_from_front
 
 # The hinge lies in front of the ear hole by this part of the height of the head.
 _HINGE_FORWARD = 0.05
@@ -36,12 +38,6 @@ _GLIDE = 0.06
 _LIP = 0.07, 0.3
 # What is hidden from the front by more than this [m] is no outside of a lip.
 _HIDDEN = 0.0008
-# Skin stretched between the lips goes back by so many times how far they part, so that teeth are before it; what lies as
-# far behind the lips as this at rest, in half widths of the mouth, is a mouth already.
-_HOLLOW = 3.0
-_DEEP = 0.2, 0.8
-# So many times how deep the mouth is, is evened out along edges.
-_EVENED = 3
 # Keeps pieces of the skin that touch neither bone where they are.
 _LOOSE = 1e-9
 
@@ -52,26 +48,18 @@ class Jaw:
 
     hinge: a point on its axis, shape (3,) [m]. axis: unit direction of the axis to the person's left, shape (3,). glide:
     how far the joint moves per radian, shape (3,) [m]. weight: share of the turn that every vertex of the skin takes, 0
-    to 1, shape (n,). hollow: how far back skin between the lips goes per radian, shape (n,) [m]: what is stretched
-    between them in a mouth that is only a groove is the inside of the mouth. inside: the same evened out along edges, (n,)
-    [m]: triangles there are stretched into spikes, and shade must not show them.
+    to 1, shape (n,). lining: which vertices line the mouth, shape (n,).
     """
 
     hinge: Floats
     axis: Floats
     glide: Floats
     weight: Floats
-    hollow: Floats
-    inside: Floats
+    lining: NDArray[np.bool_]
 
     def opened(self, vertices: Ints, points: Floats, angle: float) -> Floats:
         """The skin's ``vertices``, (k,), which are now at ``points``, (k, 3), with the jaw open by ``angle`` [rad]."""
-        back = self.glide / np.linalg.norm(self.glide)
-        return self.turned(points, self.weight[vertices], angle) - (angle * self.hollow[vertices])[:, None] * back
-
-    def drawn_in(self, angle: float) -> Floats:
-        """How far behind the lips every vertex of the skin has gone with the jaw open by ``angle`` [rad]: [m], (n,)."""
-        return angle * self.inside
+        return self.turned(points, self.weight[vertices], angle)
 
     def turned(self, points: Floats, weight: Floats, angle: float) -> Floats:
         """Points, (k, 3), turned open by ``angle`` [rad] times their weight, (k,)."""
@@ -90,10 +78,8 @@ def find_jaw(head: Head) -> Jaw:
     forward = forward / np.linalg.norm(forward)
     hinge = 0.5 * (marks.left_tragus + marks.right_tragus) + _HINGE_FORWARD * height * forward
     glide = _GLIDE * height * forward
-    carried, gap = _carried(head, hinge, axis)
-    weight = _smooth(_spread(head.skin, carried))
-    hollow = _hollow(head, hinge, weight, gap)
-    return Jaw(hinge, axis, glide, weight, hollow, _evened(head.skin, hollow))
+    weight = _smooth(_spread(head.skin, _carried(head, hinge, axis)))
+    return Jaw(hinge, axis, glide, weight, lines_mouth(head.skin, marks))
 
 
 def lower_share(part: Part, jaw_level: float) -> Floats:
@@ -103,10 +89,9 @@ def lower_share(part: Part, jaw_level: float) -> Floats:
     return (levels[pieces] < jaw_level).astype(np.float64)
 
 
-def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Floats, Floats]:
+def _carried(head: Head, hinge: Floats, axis: Floats) -> Floats:
     """How far the jawbone takes every vertex along, (n,): 0 for what the skull keeps, 1 for what the jaw does, between them
-    for lips; nan for what hangs between all these. And how far the lips part before skin that hangs between them, 0 at the
-    corners to 1, (n,); 0 for all else."""
+    for lips; nan for what hangs between all these."""
     marks, points = head.landmarks, head.skin.vertices
     seam = lip_seam(head.skin, marks)
     forward = np.cross(axis, np.array([0.0, 1.0, 0.0]))
@@ -132,34 +117,7 @@ def _carried(head: Head, hinge: Floats, axis: Floats) -> tuple[Floats, Floats]:
     carried[index[~outside]] = np.nan
     lip = outside & (np.abs(over) > _LIP[0]) & (np.abs(over) < _LIP[1])
     carried[index[lip]] = 0.5 - 0.5 * (np.sign(over) * parting)[lip]
-    gap = np.zeros(len(points))
-    lining = np.abs(over) < np.where(outside, _LIP[0], _LIP[1]) * np.minimum(2.0 * parting, 1.0)
-    gap[index[lining]] = parting[lining]
-    return carried, gap
-
-
-def _hollow(head: Head, hinge: Floats, weight: Floats, gap: Floats) -> Floats:
-    """How far back skin goes per radian [m], (n,), where it hangs in a ``gap``, (n,): soon behind either lip, nothing at the
-    corners."""
-    marks = head.landmarks
-    middle = 0.5 * (marks.mouth_left + marks.mouth_right)
-    half_width = 0.5 * float(np.linalg.norm(marks.mouth_left - marks.mouth_right))
-    behind = (middle[2] - head.skin.vertices[:, 2]) / half_width
-    deep = np.clip((behind - _DEEP[0]) / (_DEEP[1] - _DEEP[0]), 0.0, 1.0)
-    upper, lower = _smooth(0.5 - 0.5 * gap), _smooth(0.5 + 0.5 * gap)
-    way = np.clip((weight - upper) / np.maximum(lower - upper, 1e-9), 0.0, 1.0)
-    between = 1.0 - (1.0 - 4.0 * way * (1.0 - way)) ** 2
-    hollow: Floats = _HOLLOW * float(np.linalg.norm(middle - hinge)) * between * gap**2 * (1.0 - deep)
-    return hollow
-
-
-def _evened(skin: TriangleMesh, values: Floats) -> Floats:
-    """Values at the vertices, (n,), each time the mean of their own and that of their neighbours."""
-    neighbours = igl.adjacency_matrix(skin.faces)
-    degree = np.maximum(np.asarray(neighbours.sum(axis=1)).ravel(), 1)
-    for _ in range(_EVENED):
-        values = 0.5 * (values + (neighbours @ values) / degree)
-    return values
+    return carried
 
 
 def _spread(skin: TriangleMesh, held: Floats) -> Floats:

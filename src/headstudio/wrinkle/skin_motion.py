@@ -25,14 +25,14 @@ class MovedSkin:
 
     skin: positions, normals and displacement of the refined skin. amplitudes: of both fine fields at its vertices, (N, 2).
     expansion: how much larger than at rest it is around each, 1 at rest, (N,). posed: the head's own vertices before they
-    wrinkle [m], (n, 3). drawn_in: how far these have gone behind the lips of an open mouth [m], (n,).
+    wrinkle [m], (n, 3). jaw: how far it is open [rad].
     """
 
     skin: WrinkledSkin
     amplitudes: Floats
     expansion: Floats
     posed: Floats
-    drawn_in: Floats
+    jaw: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,12 +48,12 @@ class SkinMotion:
 
     def at(self, settings: FaceSettings, tissue: Floats) -> MovedSkin:
         """The skin with the face as its sliders are set. tissue: its thickness under the head's vertices [m], (n,)."""
-        posed, drawn_in = self.face.skin_at(settings, tissue)
+        posed, jaw = self.face.skin_at(settings, tissue)
         skin, (amplitudes, expansion) = at_once(
             lambda: self.creases.displaced(posed),
             lambda: (self._fine_amplitudes(posed), self.interpolation @ self.face.expansion(posed)),
         )
-        return MovedSkin(skin, amplitudes, expansion, posed, drawn_in)
+        return MovedSkin(skin, amplitudes, expansion, posed, jaw)
 
     def _fine_amplitudes(self, posed: Floats) -> Floats:
         """Of both fine fields at the vertices of the refined skin, (N, 2), for posed positions of the head's [m], (n, 3)."""

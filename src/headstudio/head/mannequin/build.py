@@ -8,6 +8,7 @@ from functools import cache
 import igl
 import numpy as np
 import trimesh
+from scipy.spatial import cKDTree
 
 from ..head import Head, Landmarks, Part
 from ..mesh import Floats, TriangleMesh
@@ -28,20 +29,32 @@ _MIRROR = np.array([-1.0, 1.0, 1.0])
 def mannequin() -> Head:
     """The built-in head, made by this project's own code: no file is read. Made once, then kept.
 
-    An adult of neither sex in particular (see ``anthropometry``), exactly symmetric, closed but for one loop in the
-    plane the bust stands on.
+    An adult of neither sex in particular (see ``anthropometry``), with a mouth that opens.
     """
+    head = closed_bust()
+    return _symmetric(with_mouth(replace(head, notes=(_description(head),))))
+
+
+def _symmetric(head: Head) -> Head:
+    """The head with vertices that are images of one another but for some micrometres moved until they are."""
+    points = head.skin.vertices
+    twin = cKDTree(points).query(points * _MIRROR)[1]
+    return replace(head, skin=head.skin.moved(0.5 * (points + points[twin] * _MIRROR)))
+
+
+@cache
+def closed_bust() -> Head:
+    """The mannequin with its lips still closed: exactly symmetric, closed but for one loop in the plane the bust stands on."""
     vertices, faces = sculpted_half()
     vertices, faces, chart = mirrored(vertices, faces, charted(vertices, faces))
     skin = TriangleMesh(vertices * _MM, faces, chart)
-    head = Head(
+    return Head(
         name="mannequin",
         skin=skin,
         neck=_NECK,
         landmarks=_landmarks(skin),
         parts=(_eye(EYE, EYE_AXIS), _eye(EYE * _MIRROR, EYE_AXIS * _MIRROR)),
     )
-    return with_mouth(replace(head, notes=(_description(head),)))
 
 
 def _description(head: Head) -> str:
