@@ -44,13 +44,13 @@ def test_a_frown_is_folded_upright_and_raised_brows_level(face):
     raised = propose_furrows(face, layout, {"surprise": {"surprise": 1.0}})
 
     def steepness(furrows, inside):
-        steps = [np.diff(middle_line(furrow), axis=0) for furrow in furrows]
-        steps = [step[inside(middle_line(furrow)[:-1])] for furrow, step in zip(furrows, steps)]
-        x, y = np.abs(np.concatenate(steps)).sum(axis=0)
+        """Of those that have their middle inside; others only pass."""
+        lines = [line for line in map(middle_line, furrows) if inside(line[len(line) // 2])]
+        x, y = np.abs(np.concatenate([np.diff(line, axis=0) for line in lines])).sum(axis=0)
         return y / x
 
-    assert steepness(frown, lambda p: (np.abs(p[:, 0]) < 0.012) & (p[:, 1] > 0.008) & (p[:, 1] < 0.03)) > 1.0
-    assert steepness(raised, lambda p: (np.abs(p[:, 0]) < 0.04) & (p[:, 1] > 0.025)) < 0.6
+    assert steepness(frown, lambda middle: abs(middle[0]) < 0.02 and 0.02 < middle[1] < 0.045) > 2.0
+    assert steepness(raised, lambda middle: abs(middle[0]) < 0.04 and middle[1] > 0.025) < 0.6
 
 
 def test_proposals_are_furrows_that_an_artist_can_take_over(face):
