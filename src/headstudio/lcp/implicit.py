@@ -1,13 +1,12 @@
 """The real-time solver: springs implicitly, everything else explicitly, second order in time.
 
-The backward difference formula of second order (BDF2) looks at two earlier states. With x^ = (4 x_n - x_{n-1}) / 3, v^
-alike and g = 2/3 of the step,
+A step of the generalised-alpha method (generalised_alpha.py) leads from x, v by way of x^ and v^, which its past decides, to
 
-    x = x^ + g v,     M (v - v^) = g f(x, v),
+    x^ + g v',     M (v' - v^) = g / a f(x_a, v_a),
 
-is solved by one Newton step from the present velocities, with the forces that they lead to:
+with forces felt at the part a of the way. It is solved by one Newton step from the present velocities,
 
-    (M (1 + g c + g^2 kappa) + g D + g^2 K) dv = M (v^ - (1 + g c) v) + g f(x^ + g v, v),
+    (M (1 + g c + g^2 kappa) + g D + g^2 K) dv = M (v^ - v) + g / a f(x_a, v),
 
 K and D being the stiffness and damping of the springs, kappa that of bending, c air friction. The matrix is symmetric
 and positive definite (compressed links count only along themselves), its pattern never changes, and conjugate gradients
@@ -23,20 +22,21 @@ import numpy as np
 from ..head.mesh import Floats
 from ..head.rows import row_dot
 from .dynamics import Circumstances, Dynamics
+from .generalised_alpha import FORCE_AT, WEIGHT, gone_on, looking_back, on_the_way, way_begun
 from .inertia import apparent_acceleration
 from .model import HairState
 from .resting import Meeting, solve_at_body
 from .settings import DynamicsSettings
 from .spring_matrix import SpringMatrix
 
-# A step has three parts for links of 3 cm, and more the shorter they are: of what a head's shake does in a part, no link
+# A step has two parts for links of 3 cm, and more the shorter they are: of what a head's shake does in a part, no link
 # turns far. And more, for accuracy, as long as few particles leave the time for it.
-_FEWEST_PARTS, _MOST_PARTS = 3, 6
-_PART_LENGTH = 0.09  # [m]
-_PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
+_FEWEST_PARTS, _MOST_PARTS = 2, 4
+_PART_LENGTH = 0.06  # [m]
+_PARTICLES_IN_TIME = 4000  # particles times parts that keep up with real time
 _STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
-_TOLERANCE = 2e-2
-_G = 2.0 / 3.0  # of a part: the weight of what BDF2 finds at its end
+# What is left of a solution goes on into the next ones: this is the dearest number of the solver, and pays for itself.
+_TOLERANCE = 5e-3
 
 
 class ImplicitSolver:
@@ -68,7 +68,7 @@ class ImplicitSolver:
     def _stiffen(self, settings: DynamicsSettings, dt: float) -> None:
         """Let the matrix know of the bending that parts of dt [s] do not carry by themselves."""
         if (settings.stiffness, dt) != self._stiffened:
-            self._matrix.stiffen(self.dynamics.bending.too_stiff(settings, dt), _G * dt)
+            self._matrix.stiffen(self.dynamics.bending.too_stiff(settings, dt), WEIGHT * dt)
             self._stiffened = (settings.stiffness, dt)
 
     def _halfway(self, state: HairState, dt: float) -> HairState:
@@ -81,26 +81,27 @@ class ImplicitSolver:
         )
 
     def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:
-        """One BDF2 step of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
-        dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time + dt)
-        model = dynamics.model
+        """One step of the generalised-alpha method of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
+        dynamics, settings = self.dynamics, now.settings
+        model, felt, frame = dynamics.model, now.at(state.time + FORCE_AT * dt), now.at(state.time + dt)
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
         x_before, v_before = state.before or self._earlier(state, now, outer, dt)
-        x_hat, v_hat = (4.0 * x - x_before) / 3.0, (4.0 * v - v_before) / 3.0
-        g = _G * dt
+        x_hat, v_hat = gone_on(x, x_before) + way_begun(v, dt), gone_on(v, v_before)
+        g, gained = WEIGHT * dt, v - v_before
 
         ahead = x_hat + g * v
-        links = dynamics.links(ahead, settings)
+        x_felt = on_the_way(x, ahead)
+        links = dynamics.links(x_felt, settings)
         directions = dynamics.turn(links, state.directions)
         load = dynamics.springs.load(links, settings)
-        force = mass * (outer + dynamics.bending_acceleration(settings, ahead, v, directions))
+        force = mass * (outer + dynamics.bending_acceleration(settings, x_felt, v, directions))
         # Coriolis turns with the velocity and stays out of the matrix, which is symmetric: it takes the velocity to come,
         # or it would lag behind by a part.
-        coming = v + (v - v_before)
-        force += mass * apparent_acceleration(frame, x_hat + g * coming, coming, settings.gravity)
+        coming = FORCE_AT * gained
+        force += mass * apparent_acceleration(felt, x_felt + g * coming, v + coming, settings.gravity)
         force += dynamics.springs.forces(links, load, v)
-        right = mass * (v_hat - (1.0 + g * settings.air_friction) * v) + g * force
+        right = mass * (v_hat - v) + g / FORCE_AT * (force - settings.air_friction * mass * v)
         # The plane that a particle is heading for tells how far from it the step starts.
         meeting = Meeting.ahead(dynamics.touch(ahead, frame), v, g)
         bounds = meeting.taut(model, ahead, v, g)
@@ -109,15 +110,7 @@ class ImplicitSolver:
             inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
             self._matrix.update(links, load, g, inertia * model.mass)
             change, pressing = solve_at_body(
-                self._matrix,
-                right,
-                v - v_before,
-                bounds,
-                model.fixed,
-                pressing,
-                settings.body_friction,
-                g,
-                self.tolerance,
+                self._matrix, right, gained, bounds, model.fixed, pressing, settings.body_friction, g, self.tolerance
             )
 
         free = v + change
@@ -127,15 +120,16 @@ class ImplicitSolver:
         kink = x_new - (x_hat + g * free)
         held = pressing > 0
         kink[held] = bounds.touch.normals[held]
+        x_behind, v_behind = looking_back(x_new, x, x_before), looking_back(v_new, v, v_before)
         before = (
-            x + _along(kink, x_new - dt * v_new - x, _STRAIGHTENED),
-            v + _along(kink, v_new - v, _STRAIGHTENED / g),
+            x_behind + _along(kink, x_new - dt * v_new - x_behind, _STRAIGHTENED),
+            v_behind + _along(kink, v_new - v_behind, _STRAIGHTENED / g),
         )
         pressing = np.where(held & bounds.rubs, pressing, model.mass * impulse / g)
         return HairState(x_new, v_new, directions, state.time + dt, before, pressing)
 
     def _earlier(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> tuple[Floats, Floats]:
-        """A position and velocity for the part before the first, such that the first is of second order, too."""
+        """What the first part looks back to: positions and velocities a part of dt [s] before on a straight path."""
         dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time)
         x, v = state.positions, state.velocities
         touch = dynamics.touch(x, frame)
@@ -146,8 +140,7 @@ class ImplicitSolver:
         acceleration += dynamics.bending_acceleration(settings, x, v, state.directions, dt)
         acceleration += springs / dynamics.model.mass[:, None]
         held, _ = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
-        acceleration = (held - v) / dt
-        return x - dt * v + 0.5 * dt * dt * acceleration, v - dt * acceleration
+        return x - dt * v, 2.0 * v - held
 
 
 def _along(way: Floats, a: Floats, most: float) -> Floats:

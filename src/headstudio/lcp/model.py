@@ -61,7 +61,8 @@ class HairModel:
 class HairState:
     """What moves: positions [m], velocities [m/s] and unit hair directions in the head frame, (n, 3), at a time [s].
 
-    before: positions and velocities one step earlier, for solvers that look back; None after a fresh start.
+    before: positions and velocities one step earlier on a straight path, for solvers that look back; None after a fresh
+    start.
     pressing: with what force the body holds hair that lies on it [N], (n,), with ``before``.
     """
 
