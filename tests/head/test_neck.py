@@ -36,12 +36,12 @@ def test_a_turn_by_a_share(turn):
 
 
 @pytest.mark.parametrize("turn", TURNS)
-@pytest.mark.parametrize("guess", [0.0, 1.0])
-def test_what_is_bent_is_led_back(turn, guess):
-    """Around a neck that does not fold up there is one place at rest for every place, and both guesses come to it."""
+@pytest.mark.parametrize("way", [0, 1], ids=["from above", "from below"])
+def test_what_is_bent_is_led_back(turn, way):
+    """Around a neck that does not fold up there is one place at rest for every place, and both ways come to it."""
     rest = around_the_neck()
     bent = HeadFrame(rotation=Rotation.from_rotvec(turn)).skinned(rest, NECK.share(rest))
-    share = NECK.share_when_bent(bent, np.array(turn), guess)
+    share = NECK.shares_when_bent(bent, np.array(turn))[way]
     np.testing.assert_allclose(share, NECK.share(rest), atol=2e-3)
     np.testing.assert_allclose(turned_by(bent, np.array(turn), -share), rest, atol=2e-4)
 

@@ -12,7 +12,7 @@ from scipy import ndimage
 
 from .locate import Locator
 from .mesh import Floats, TriangleMesh
-from .rows import row_dot
+from .rows import in_columns, row_dot, rows_at
 from .sampling import sample_surface
 
 _SAMPLES_PER_VOXEL = 24  # on a plane through it
@@ -68,7 +68,7 @@ class ContactField:
         """Signed distance d to the local plane [m] (thesis eq. 3.19), infinite far from the body, (n,); its normals, zero
         there, (n, 3). positions: [m], (n, 3)."""
         plane = self._plane_of_cell.take(self._cells(positions))
-        normals = self._normals.take(plane, axis=0)
+        normals = rows_at(self._normals, plane)
         return row_dot(positions, normals) - self._offsets.take(plane), normals
 
     def _cells(self, positions: Floats) -> NDArray[np.int32]:
@@ -86,7 +86,7 @@ class ContactField:
     @cached_property
     def _normals(self) -> Floats:
         """The normals, and none last: the plane -1 is infinitely far from everything."""
-        return np.vstack([self.normals, np.zeros(3)])
+        return in_columns(np.vstack([self.normals, np.zeros(3)]))
 
     @cached_property
     def _offsets(self) -> Floats:

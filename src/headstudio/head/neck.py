@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import Floats
-from .rows import cross_matrix, row_dot
+from .rows import cross_matrix, mapped, row_dot
 
 _NEWTON_STEPS = 3
 # Where the inner side of a bend folds up, one place at rest comes to many: there Newton's way is kept this steep.
@@ -38,22 +38,22 @@ class Neck:
         """How fast the share grows along ``upward`` at points of the bust at rest [m], (n, 3): [1/m], (n,)."""
         return self._slope(self._below(points @ self.upward))
 
-    def share_when_bent(self, points: Floats, turn: Floats, guess: float) -> Floats:
-        """The part w of ``turn`` that leads from rest to ``points`` of the bent neck [m], (n, 3): (n,).
+    def shares_when_bent(self, points: Floats, turn: Floats) -> Floats:
+        """The part w of ``turn`` that leads from rest to ``points`` of the bent neck [m], (n, 3): (2, n).
 
         turn: rotation vector of the head against the torso, in whose axes the points are, (3,). w is the root of
-        w - share(R(-w turn) x), by Newton's method from ``guess``: where skin of the head comes to lie on that of the torso
-        there is one from above and one from below.
+        w - share(R(-w turn) x), by Newton's method from 1 and from 0: where skin of the head comes to lie on that of the
+        torso there is one from above and one from below.
         """
         angle = float(np.linalg.norm(turn))
         if angle < 1e-9:
-            return self.share(points)
+            return np.tile(self.share(points), (2, 1))
         axis = turn / angle
         # The height of R(-w turn) x is that of its part along the axis, a cosine and a sine.
         height = points @ self.upward
         still = (points @ axis) * (axis @ self.upward)
-        cosine, sine = height - still, points @ -np.cross(axis, self.upward)
-        w = np.full(len(points), guess)
+        cosine, sine = height - still, points @ (cross_matrix(self.upward) @ axis)
+        w = np.repeat([[1.0], [0.0]], len(points), axis=1)
         for _ in range(_NEWTON_STEPS):
             c, s = np.cos(angle * w), np.sin(angle * w)
             below = self._below(still + c * cosine - s * sine)
@@ -69,7 +69,7 @@ class Neck:
         stretches what it bends. With J = R (1 + (turn x p) grad w^T) it is the inverse transpose of J without its R.
         """
         slope = self.slope(points)
-        lever = points @ cross_matrix(turn).T
+        lever = mapped(points, cross_matrix(turn))
         steepness = np.maximum(1.0 + (lever @ self.upward) * slope, _FLATTEST)
         return normals - (slope * row_dot(lever, normals) / steepness)[:, None] * self.upward
 
@@ -95,5 +95,5 @@ def turned_by(vectors: Floats, turn: Floats, share: Floats) -> Floats:
         return vectors
     axis = turn / angle
     c, s = np.cos(angle * share)[:, None], np.sin(angle * share)[:, None]
-    still = vectors @ np.outer(axis, axis)
-    return still + c * (vectors - still) + s * (vectors @ cross_matrix(axis).T)
+    still = mapped(vectors, np.outer(axis, axis))
+    return still + c * (vectors - still) + s * mapped(vectors, cross_matrix(axis))

@@ -9,6 +9,8 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
 
 from .mesh import Floats
 
@@ -28,6 +30,28 @@ def _ones(count: int) -> Floats:
 def in_columns(a: Floats) -> Floats:
     """The same vectors, each column in a piece (Fortran's order)."""
     return np.asfortranarray(a)
+
+
+def rows_at(a: Floats, which: NDArray[np.integer]) -> Floats:
+    """The rows ``which`` of vectors (n, k) in columns, in columns, too."""
+    return a.T.take(which, axis=1).T
+
+
+def mapped(a: Floats, matrix: Floats) -> Floats:
+    """matrix a_i of vectors (n, k), in columns, (n, l). matrix: (l, k)."""
+    image: Floats = matrix @ a.T
+    return image.T
+
+
+class OnColumns:
+    """A sparse matrix (l, n) that acts on vectors (n, k) in columns, and gives such: one product for all k at once."""
+
+    def __init__(self, matrix: sparse.csr_array, columns: int = 3) -> None:
+        self._columns = columns
+        self._matrix = sparse.block_diag([matrix] * columns, format="csr")
+
+    def __matmul__(self, vectors: Floats) -> Floats:
+        return (self._matrix @ vectors.ravel(order="F")).reshape((-1, self._columns), order="F")
 
 
 def row_length(a: Floats) -> Floats:

@@ -22,7 +22,7 @@ from scipy import sparse
 from scipy.sparse.linalg import eigsh
 
 from ..head.mesh import Floats
-from ..head.rows import row_dot, row_length
+from ..head.rows import OnColumns, in_columns, row_dot, row_length
 from .kernel import kernel
 from .model import HairModel
 from .settings import DynamicsSettings
@@ -31,7 +31,9 @@ _FIRST_MODE = 12.36  # 1.8751^4: first mode of a clamped beam
 _STANDARD_GRAVITY = 9.81  # the one the beam was bent by [m/s^2]
 _HIGHEST = 2000.0  # of kappa [1/s^2]: stiffer hair moves with the head all the same
 _REACH = 2.0  # bending lengths at which half of the weight is still carried
-_STEP_LIMIT = 0.5  # of a square frequency times a square step that an explicit step still carries
+# Of a square frequency times a square step: what a step carries that is explicit in everything, and what one does whose
+# springs are implicit, and whose limit without them would be 1.75.
+_STEP_LIMIT, _PART_LIMIT = 0.5, 1.0
 _RELAXATION = 0.004  # bending dies away within this time beyond its period [s]
 
 
@@ -62,8 +64,8 @@ class Bending:
         carried = 1.0 / (1.0 + (s / (_REACH * length)) ** 4)
         self._support = -carried[:, None] * across
         self._turn, distance = _turning(model)
-        self._turn_back = self._turn.T.tocsr()
-        self._rest_turn = self._turn @ model.rest_positions
+        self._turns, self._turn_back = OnColumns(self._turn), OnColumns(self._turn.T.tocsr())
+        self._rest_turn = in_columns(self._turn @ model.rest_positions)
         # B = w l^3 with w the weight per length: energy of a turn of one radian over the distance, per mass [J/kg].
         self._rigidity = _STANDARD_GRAVITY * length**3 / distance**2
         self._fastest = _square_frequencies(self._turn, self._rigidity)
@@ -98,12 +100,12 @@ class Bending:
         positions [m] and velocities [m/s], head frame, and what ``rest_turn`` says of the directions, (n, 3). rigidity: as
         above [J], (n,).
         """
-        excess = self._turn @ (positions + _RELAXATION * velocities) - rest_turn
+        excess = self._turns @ (positions + _RELAXATION * velocities) - rest_turn
         return -(self._turn_back @ (rigidity[:, None] * excess))
 
     def too_stiff(self, settings: DynamicsSettings, dt: float) -> StiffTurning:
         """What of the bending an explicit step of dt [s] does not carry, for the matrix of an implicit one."""
-        rows = np.flatnonzero(self.carried(settings, dt) < 1.0)
+        rows = np.flatnonzero(settings.stiffness * self._fastest * dt * dt > _PART_LIMIT)
         return StiffTurning(self._turn[rows], self.rigidity(settings)[rows])
 
 

@@ -12,7 +12,7 @@ from ..head.hair_tight import hair_tight_surface
 from ..head.head import Head
 from ..head.mesh import Floats
 from ..head.neck import NO_NECK, Neck, turned_by
-from ..head.rows import cross_matrix, row_dot, row_length
+from ..head.rows import cross_matrix, mapped, row_dot, row_length, rows_at
 
 _VOXEL = 0.007
 _SLIDING_DISTANCE = 0.006
@@ -56,30 +56,29 @@ class Body:
         if frame is None or self.neck is NO_NECK:
             distance, normals = self.surface.at(positions)
             return Planes(distance, normals, np.zeros_like(positions))
-        standing = positions @ frame.axes.T
+        standing = mapped(positions, frame.axes)
         low = np.flatnonzero(self.neck.reaches(positions) | self.neck.reaches(standing))
-        turn, seen = frame.rotation.as_rotvec(), standing.take(low, axis=0)
+        turn, seen = frame.rotation.as_rotvec(), rows_at(standing, low)
         # Between head and shoulders there may be a plane of either: as skin folds there, two places come to one.
-        share = self.neck.share_when_bent(seen, turn, 1.0)
-        other = self.neck.share_when_bent(seen, turn, 0.0)
-        rest = positions.copy()
-        rest[low] = turned_by(seen, turn, -share)
+        share, other = self.neck.shares_when_bent(seen, turn)
+        rest = positions.copy(order="F")
+        rest.T[:, low] = turned_by(seen, turn, -share).T
         distance, normals = self.surface.at(rest)
         two = np.flatnonzero(share - other > _SAME)
-        rest_of_other = turned_by(seen[two], turn, -other[two])
+        rest_of_other = turned_by(rows_at(seen, two), turn, -other[two])
         distance_of_other, normals_of_other = self.surface.at(rest_of_other)
         nearer = distance_of_other < distance[low[two]]
         two = two[nearer]
         share[two], rest[low[two]] = other[two], rest_of_other[nearer]
         distance[low[two]], normals[low[two]] = distance_of_other[nearer], normals_of_other[nearer]
 
-        bent = self.neck.bent_normals(rest[low], normals[low], turn)
+        bent = self.neck.bent_normals(rows_at(rest, low), rows_at(normals, low), turn)
         length = np.maximum(row_length(bent), 1e-12)
         distance[low] /= length
-        normals[low] = turned_by(bent / length[:, None], turn, share) @ frame.axes
+        normals.T[:, low] = mapped(turned_by(bent / length[:, None], turn, share), frame.axes.T).T
         spin = frame.angular_velocity @ frame.axes
-        velocity = np.zeros_like(positions)
-        velocity[low] = (1.0 - share)[:, None] * (positions[low] @ cross_matrix(spin))
+        velocity = np.zeros_like(rest)
+        velocity.T[:, low] = (share - 1.0) * mapped(rows_at(positions, low), cross_matrix(spin)).T
         return Planes(distance, normals, velocity)
 
     def clearance(self, positions: Floats) -> Floats:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
-from ..head.rows import row_dot, row_length
+from ..head.rows import row_dot, row_length, rows_at
 from .body import Body
 from .links import LENGTHWISE
 from .model import HairModel
@@ -83,7 +83,7 @@ def stop_at_body(
     sliding = velocities.take(meets, axis=0) - touch.velocity.take(meets, axis=0) - approach[meets, None] * normals
     speed = row_length(sliding)
     braked = np.minimum(friction * impulse, speed) / np.maximum(speed, 1e-12)
-    stopped = velocities.copy()
+    stopped = velocities.copy(order="K")
     stopped[meets] += change[meets, None] * normals - braked[:, None] * sliding
     return stopped, change
 
@@ -93,7 +93,7 @@ def put_back(model: HairModel, positions: Floats, touch: Touching, distance: Flo
 
     None is deeper than ``_DEEPEST`` below its plane, then none further from its root than ``_LAST_REACH`` times its length.
     """
-    back = positions.copy()
+    back = positions.copy(order="K")
     deep = np.flatnonzero((np.minimum(touch.keep, 0.0) - _DEEPEST > distance) & ~model.fixed)
     excess = np.minimum(touch.keep[deep], 0.0) - _DEEPEST - distance[deep]
     back[deep] += excess[:, None] * touch.normals[deep]
@@ -122,7 +122,7 @@ class Tethers:
 
     def drawn_along(self, positions: Floats) -> Floats:
         """Positions [m], (n, 3), where what was left behind has followed."""
-        offset = positions.take(self._tipward, axis=0) - positions.take(self._rootward, axis=0)
+        offset = rows_at(positions, self._tipward) - rows_at(positions, self._rootward)
         square = row_dot(offset, offset)
         far = np.flatnonzero((square > self._longest**2) & (square < self._holds_until**2))
         if len(far) == 0:
@@ -131,7 +131,7 @@ class Tethers:
         behind, count = self._tipward[far], len(positions)
         way = (self._longest[far] / length - 1.0)[:, None] * offset[far]
         share = 1.0 / np.bincount(behind, minlength=count)[behind]
-        drawn = positions.copy()
+        drawn = positions.copy(order="K")
         for axis in range(3):
             drawn[:, axis] += np.bincount(behind, share * way[:, axis], count)
         return drawn
@@ -155,6 +155,6 @@ def stop_at_reach(
     along = back - np.where(touches, inward, 0.0)[:, None] * normals
     # Going along the body brings less per way than the straight one: |along|^2 of it.
     gain = np.maximum(row_dot(along, along), _STEEPEST**2)
-    stopped = velocities.copy()
+    stopped = velocities.copy(order="K")
     stopped[far] += (over / (dt * gain))[:, None] * along
     return stopped

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..head.mesh import Floats
-from ..head.rows import in_columns, row_dot, row_length
+from ..head.rows import row_dot, row_length, rows_at
 from .model import HairModel
 from .springs import LinkState, Springs
 
@@ -15,12 +15,9 @@ def updated_directions(model: HairModel, springs: Springs, links: LinkState, dir
 
     directions: the present ones, unit, (n, 3). A root particle keeps its own; so does one whose links cancel out.
     """
-    rootward, tipward = model.links.T
-    at_rootward, at_tipward = (in_columns(directions.take(end, axis=0)) for end in (rootward, tipward))
-    seen_from_root = turned(links.unit, at_rootward, model.rest_cosine[:, 0])
-    seen_from_tip = turned(-links.unit, at_tipward, model.rest_cosine[:, 1])
-    weight = links.stiffness[:, None]
-    total = springs.sum_at_ends(weight * seen_from_root, weight * seen_from_tip)
+    at_ends = rows_at(directions, model.links.T.ravel())
+    seen = turned(np.concatenate([links.unit, -links.unit]), at_ends, model.rest_cosine.ravel(order="F"))
+    total = springs.sum_at_ends(np.tile(links.stiffness, 2)[:, None] * seen)
     length = row_length(total)
     steady = model.fixed | (length <= 1e-12 * length.max(initial=1e-300))
     return np.where(steady[:, None], directions, total / np.where(steady, 1.0, length)[:, None])
@@ -33,10 +30,9 @@ def turned(unit: Floats, direction: Floats, cosine: Floats) -> Floats:
     axis, and the answer is +-unit, on the hair's side.
     """
     along = row_dot(unit, direction)
-    across = direction - along[:, None] * unit
-    length = row_length(across)
-    parallel = length < 1e-6
+    across = np.sqrt(np.maximum(1.0 - along * along, 0.0))
+    parallel = across < 1e-6
     sine = np.sqrt(np.maximum(1.0 - cosine * cosine, 0.0))
-    lengthwise = np.where(parallel, np.sign(along), cosine)
-    sideways = np.where(parallel, 0.0, sine / np.where(parallel, 1.0, length))
-    return lengthwise[:, None] * unit + sideways[:, None] * across
+    sideways = np.where(parallel, 0.0, sine / np.where(parallel, 1.0, across))
+    lengthwise = np.where(parallel, np.sign(along), cosine - sideways * along)
+    return lengthwise[:, None] * unit + sideways[:, None] * direction

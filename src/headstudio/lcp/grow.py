@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats
-from ..head.rows import row_length
+from ..head.rows import in_columns, row_length
 from ..head.scalp import Scalp
 from .beam import beam_directions
 from .body import Body
@@ -50,9 +50,9 @@ def grow_hair(scalp: Scalp, body: Body, settings: HairSettings) -> HairModel:
     mass = np.full(len(arc_length), settings.mass / max(above, 1))
     return HairModel(
         coordinates=coordinates,
-        root_points=roots,
-        rest_positions=positions,
-        rest_directions=directions,
+        root_points=in_columns(roots),
+        rest_positions=in_columns(positions),
+        rest_directions=in_columns(directions),
         mass=mass,
         fixed=fixed,
         links=links.pairs,

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
-from ..head.rows import cross_matrix
+from ..head.rows import cross_matrix, mapped
 
 
 def apparent_acceleration(frame: HeadFrame, positions: Floats, velocities: Floats, gravity: float) -> Floats:
@@ -23,4 +23,4 @@ def apparent_acceleration(frame: HeadFrame, positions: Floats, velocities: Float
     # One matrix for Euler and centrifugal, one for Coriolis: x -> a x is a cross product.
     turning = cross_matrix(spin)
     by_position = -cross_matrix(spin_change) - turning @ turning
-    return falling + positions @ by_position.T + velocities @ (-2.0 * turning).T
+    return falling + mapped(positions, by_position) + mapped(velocities, -2.0 * turning)

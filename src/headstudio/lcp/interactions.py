@@ -46,7 +46,7 @@ def hair_hair_forces(
     radial = _pressure(model, settings, density, i, j, distance, dt) / np.maximum(distance, 1e-9)
     drag = _contact_drag(model, settings, density, state, i, j, x, weight, dt)
     force = radial * x + drag
-    return np.stack([_gather(part, -part, i, j, count) for part in force], axis=1), density
+    return np.stack([_gather(part, -part, i, j, count) for part in force]).T, density
 
 
 def _pressure(

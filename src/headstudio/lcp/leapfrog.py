@@ -30,8 +30,7 @@ class LeapfrogSolver:
         model, springs = self.dynamics.model, self.dynamics.springs
         stiffness = springs.at(model.rest_positions, settings.elastic_modulus).stiffness
         damping = springs.damping(stiffness, settings.spring_damping) + springs.friction(settings.inner_friction)
-        both = np.column_stack([stiffness, damping])
-        square, rate = (2.0 * springs.sum_at_ends(both, both) / model.mass[:, None]).T
+        square, rate = (2.0 * (springs.around @ each) / model.mass for each in (stiffness, damping))
         limit = 4.0 / (rate + np.sqrt(rate * rate + 4.0 * square) + 1e-9)
         return _STEP_OF_LIMIT * float(np.min(limit, initial=_LONGEST_STEP))
 

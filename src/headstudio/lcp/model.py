@@ -76,4 +76,8 @@ class HairState:
     @classmethod
     def at_rest(cls, model: HairModel) -> HairState:
         """The initial state of the model."""
-        return cls(model.rest_positions.copy(), np.zeros_like(model.rest_positions), model.rest_directions.copy())
+        return cls(
+            model.rest_positions.copy(order="K"),
+            np.zeros_like(model.rest_positions),
+            model.rest_directions.copy(order="K"),
+        )

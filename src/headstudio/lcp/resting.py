@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats
-from ..head.rows import row_dot, row_length
+from ..head.rows import row_dot, row_length, rows_at
 from .contact import LONGEST_REACH, RESTING, Touching, least_departure
 from .model import HairModel
 from .spring_matrix import SpringMatrix
@@ -67,7 +67,7 @@ class Meeting:
         reach = row_length(outward)
         over = reach - LONGEST_REACH * model.arc_length
         which = np.flatnonzero((over > 0) & ~model.fixed & ~self.lies & (self.leaving >= self.least))
-        normals = self.touch.normals.copy()
+        normals = self.touch.normals.copy(order="K")
         normals[which] = -outward[which] / reach[which, None]
         leaving, least, slip, rubs = self.leaving.copy(), self.least.copy(), self.slip.copy(), self.rubs.copy()
         slip[which] = velocities[which]
@@ -104,15 +104,16 @@ def solve_at_body(
     change = guess
     for rest in (_ROUGHLY * tolerance, tolerance):
         which = np.flatnonzero(held)
-        normal = normals[which]
-        slip = meeting.slip[which] - meeting.leaving[which, None] * normal
-        sliding = slip + _across(change[which], normal)
+        normal = rows_at(normals, which)
+        slip = rows_at(meeting.slip, which) - meeting.leaving[which, None] * normal
+        across = _across(rows_at(change, which), normal)
+        sliding = slip + across
         speed = row_length(sliding)
         drag = g * friction * meeting.rubs[which] * pressing[which] / np.maximum(speed, _STICKING)
         matrix.hold(which, normal, drag)
-        dragged, start = right.copy(), change.copy()
+        dragged, start = right.copy(order="K"), change.copy(order="K")
         dragged[which] -= drag[:, None] * slip
-        start[which] = _across(start[which], normal) + (meeting.least - meeting.leaving)[which, None] * normal
+        start[which] = across + (meeting.least - meeting.leaving)[which, None] * normal
         change, left = matrix.solve(dragged, start, rest)
         force = -row_dot(left, normals) / g
         held = np.where(held, force > 0, ~fixed & (meeting.leaving + _along(change, normals) < meeting.least - _SLACK))

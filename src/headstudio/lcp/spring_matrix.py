@@ -13,6 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats, Ints
+from ..head.rows import OnColumns, rows_at
 from .bending import StiffTurning
 from .model import HairModel
 from .springs import LinkState, Load, Springs
@@ -31,8 +32,8 @@ class SpringMatrix:
     """
 
     def __init__(self, model: HairModel, springs: Springs) -> None:
-        self._springs = springs
         self._free = np.flatnonzero(~model.fixed)
+        self._around = OnColumns(springs.around[self._free], 6)
         count, links = len(self._free), len(model.links)
         place = np.full(model.count, -1)
         place[self._free] = np.arange(count)
@@ -77,14 +78,14 @@ class SpringMatrix:
         along = g * g * load.stiffness + g * load.damping - turning
         across = turning + g * load.friction
         count = len(along)
-        x, y, z = np.ascontiguousarray(links.unit.T)
+        x, y, z = links.unit.T
         of_links, of_diagonal = self._six[:, :count], self._six[:, count:]
         pushed = along * x
         of_links[0], of_links[1], of_links[2] = pushed * x + across, pushed * y, pushed * z
         pushed = along * y
         of_links[3], of_links[4] = pushed * y + across, pushed * z
         of_links[5] = along * z * z + across
-        of_diagonal[:] = self._springs.sum_around(np.ascontiguousarray(of_links.T))[self._free].T
+        of_diagonal[:] = (self._around @ of_links.T).T
         of_diagonal[[0, 3, 5]] += inertia[self._free]
         of_links *= -1.0
         np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
@@ -119,8 +120,7 @@ class SpringMatrix:
         sign turned round. tolerance: of the rest, as a part of the right side.
         """
         inverse = self._inverse
-        wanted = right[self._free].ravel(order="F")
-        solution = guess[self._free].ravel(order="F")
+        wanted, solution = (rows_at(vectors, self._free).ravel(order="F") for vectors in (right, guess))
         residual = wanted - self._of(solution)
         z = _times(inverse, residual)
         direction = z.copy()
@@ -150,8 +150,8 @@ class SpringMatrix:
         return product
 
     def _at_all(self, of_free: Floats) -> Floats:
-        at_all = np.zeros((len(self._place), 3))
-        at_all[self._free] = of_free.reshape(3, -1).T
+        at_all = np.zeros((len(self._place), 3), order="F")
+        at_all.T[:, self._free] = of_free.reshape(3, -1)
         return at_all
 
 

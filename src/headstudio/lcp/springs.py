@@ -12,7 +12,7 @@ import numpy as np
 from scipy import sparse
 
 from ..head.mesh import Floats
-from ..head.rows import in_columns, row_dot, row_length
+from ..head.rows import OnColumns, row_dot, row_length
 from .kernel import kernel
 from .model import HairModel
 from .settings import DynamicsSettings
@@ -45,7 +45,10 @@ class Load:
 
 
 class Springs:
-    """The springs of one head of hair."""
+    """The springs of one head of hair.
+
+    section: A_i of eq. 9 [m^2], (n,). around: the matrix that sums over all links of a particle, (n, m).
+    """
 
     def __init__(self, model: HairModel) -> None:
         self.model = model
@@ -56,10 +59,11 @@ class Springs:
         shape = (count, links)
         self._sum_at_rootward = sparse.csr_array((ones, (rootward, rows)), shape=shape)
         self._sum_at_tipward = sparse.csr_array((ones, (tipward, rows)), shape=shape)
-        self._spread = (self._sum_at_rootward - self._sum_at_tipward).tocsr()
-        self._sum_at_both = (self._sum_at_rootward + self._sum_at_tipward).tocsr()
-        self._difference = -self._spread.T.tocsr()
-        self.section = (model.mass / HAIR_MATERIAL_DENSITY) ** (2.0 / 3.0)  # A_i of eq. 9 [m^2]
+        spread = (self._sum_at_rootward - self._sum_at_tipward).tocsr()
+        self._spread, self._difference = OnColumns(spread), OnColumns(-spread.T.tocsr())
+        self._sum_at_ends = OnColumns(sparse.hstack([self._sum_at_rootward, self._sum_at_tipward], format="csr"))
+        self.around = (self._sum_at_rootward + self._sum_at_tipward).tocsr()
+        self.section = (model.mass / HAIR_MATERIAL_DENSITY) ** (2.0 / 3.0)
         rest = model.strength * kernel(model.rest_length, model.smoothing_length_links)
         self._least = np.zeros(links)
         held = model.lifeline[model.lifeline >= 0]
@@ -73,7 +77,7 @@ class Springs:
 
     def at(self, positions: Floats, elastic_modulus: float) -> LinkState:
         """Directions, lengths and coefficients of the springs. positions: [m], (n, 3). elastic_modulus: E [Pa]."""
-        offset = in_columns(self._difference @ positions)
+        offset = self._difference @ positions
         length = row_length(offset)
         unit = offset / np.maximum(length, 1e-9)[:, None]
         return LinkState(unit, length, self._stiffness(length, elastic_modulus))
@@ -116,7 +120,7 @@ class Springs:
 
     def forces(self, links: LinkState, load: Load, velocities: Floats) -> Floats:
         """Force of the damped springs on every particle [N], (n, 3). velocities: [m/s], (n, 3)."""
-        parting = in_columns(self._difference @ velocities)
+        parting = self._difference @ velocities
         closing = row_dot(parting, links.unit)
         pull = load.pull + load.damping * closing
         return self.spread(pull[:, None] * links.unit + load.friction[:, None] * parting)
@@ -125,10 +129,7 @@ class Springs:
         """Add what pulls along every link to its rootward particle and take it from its tipward one, (m, 3) to (n, 3)."""
         return self._spread @ pull
 
-    def sum_at_ends(self, at_rootward: Floats, at_tipward: Floats) -> Floats:
-        """Sum over the links of a particle, with one value for the rootward and one for the tipward end, (m, k) to (n, k)."""
-        return self._sum_at_rootward @ at_rootward + self._sum_at_tipward @ at_tipward
-
-    def sum_around(self, of_links: Floats) -> Floats:
-        """Sum over all links of a particle, (m, k) to (n, k)."""
-        return self._sum_at_both @ of_links
+    def sum_at_ends(self, at_ends: Floats) -> Floats:
+        """Sum over the links of a particle of vectors, first those at all rootward, then at all tipward ends, (2 m, 3) to
+        (n, 3)."""
+        return self._sum_at_ends @ at_ends
