@@ -83,7 +83,7 @@ class ImplicitSolver:
     def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:
         """One step of the generalised-alpha method of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
         dynamics, settings = self.dynamics, now.settings
-        model, felt, frame = dynamics.model, now.at(state.time + FORCE_AT * dt), now.at(state.time + dt)
+        model, frames = dynamics.model, (now.at(state.time), now.at(state.time + dt))
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
         x_before, v_before = state.before or self._earlier(state, now, outer, dt)
@@ -99,11 +99,12 @@ class ImplicitSolver:
         # Coriolis turns with the velocity and stays out of the matrix, which is symmetric: it takes the velocity to come,
         # or it would lag behind by a part.
         coming = FORCE_AT * gained
-        force += mass * apparent_acceleration(felt, x_felt + g * coming, v + coming, settings.gravity)
+        apparent = (apparent_acceleration(at, x_felt + g * coming, v + coming, settings.gravity) for at in frames)
+        force += mass * on_the_way(*apparent)
         force += dynamics.springs.forces(links, load, v)
         right = mass * (v_hat - v) + g / FORCE_AT * (force - settings.air_friction * mass * v)
         # The plane that a particle is heading for tells how far from it the step starts.
-        meeting = Meeting.ahead(dynamics.touch(ahead, frame), v, g)
+        meeting = Meeting.ahead(dynamics.touch(ahead, frames[1]), v, g)
         bounds = meeting.taut(model, ahead, v, g)
         pressing = np.zeros(model.count) if state.before is None or state.pressing is None else state.pressing
         with dynamics.timer.stage("solve"):
