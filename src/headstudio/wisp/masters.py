@@ -61,7 +61,7 @@ def synthesise_details(outlines: Outlines, settings: WispSettings) -> Details:
     offsets = _spun(offsets, spin)
     along: Floats = spacing * np.arange(offsets.shape[1], dtype=np.float64)
     sooner, later = _SOONER_OR_LATER
-    straight = settings.straight_roots * rng.uniform(sooner, later, wisps)
+    straight = np.asarray(settings.straight_roots * rng.uniform(sooner, later, wisps))
     offsets *= _onset(along, straight)[..., None]
     return Details(offsets, per_segment)
 
