@@ -145,6 +145,17 @@ def replace_faces(skin, kept):
     return TriangleMesh(skin.vertices, skin.faces[kept])
 
 
+@pytest.mark.parametrize("slider", ["thinking", "smile", "troubled", "angry", "squint"])
+def test_no_expression_brings_the_lining_through_the_skin(slider):
+    face = Face(mannequin())
+    head = face.head
+    lining = lines_mouth(head.skin, head.landmarks)
+    skin = head.skin.moved(face.pose(FaceSettings(**{slider: 1.0})).positions)
+    outer = locator(replace_faces(skin, ~lining[skin.faces].any(axis=1)))
+    ahead = outer.first_hit(skin.vertices[lining], np.broadcast_to([0.0, 0.0, 1.0], (lining.sum(), 3)))
+    assert np.isfinite(ahead).mean() > 0.995
+
+
 def test_lips_that_end_in_a_border_are_lined_too():
     """A skin with a mouth cut out of it gets the same lining as one whose lips are closed."""
     head = closed_bust()

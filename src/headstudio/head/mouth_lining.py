@@ -29,7 +29,7 @@ _RINGS = np.array(
 )
 _THROAT = 0.33
 # Lining comes to lie so far behind what is seen of the skin, on this part of the way to the throat.
-_BEHIND, _SOON = 0.04, 0.10
+_BEHIND, _SOON = 0.04, 0.05
 # So many rings of vertices on either side of the edges of the lips are made round.
 _ROUND = 2
 

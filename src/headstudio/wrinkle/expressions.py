@@ -50,7 +50,8 @@ EXPRESSIONS: Mapping[str, Expression] = {
             "zygomatic minor": 1.35,
             "zygomatic major": 0.15,
             "risorius": 0.2,
-            "orbicularis oculi": 0.14,
+            "labi nasi": 0.3,
+            "orbicularis oculi": 0.25,
             "frontalis outer": 0.1,
         },
         units={"mouth-corner-puller": 0.8, "mouth-retraction": 0.2, "nose-SIDE-dilatation": 0.2},
@@ -103,7 +104,7 @@ EXPRESSIONS: Mapping[str, Expression] = {
     ),
     "squint": Expression(
         contractions={
-            "orbicularis oculi": 0.25,
+            "orbicularis oculi": 0.35,
             "lateral corrugator": 0.4,
             "depressor supercilii": 0.2,
             "procerus": 0.25,

@@ -79,7 +79,8 @@ _WATERS: dict[str, _Entry] = {
 
 _ADDED: dict[str, _Entry] = {
     "frontalis": _Sheet((-1.7, 3.7, 8.0), (-1.7, 6.7, 6.9), 2.6, 1.6, 4.1),
-    "orbicularis oculi": _Sphincter((-2.05, 2.0, 7.3), 2.1, 1.75, 2.2, (0.35, 1.0), 0.0),
+    # Its outer part reaches the temple, where it folds skin into crow's feet.
+    "orbicularis oculi": _Sphincter((-2.45, 2.0, 7.1), 2.75, 1.75, 3.0, (0.35, 1.0), 0.0),
     "orbicularis oris": _Sphincter((0.0, -2.3, 8.2), 2.6, 2.0, 2.0, (1.0, 0.35), 0.5),
     "depressor supercilii": _Linear((-1.7, 3.9, 7.9), (-0.8, 2.3, 7.5), 0.4, 3.0, 60),
     "procerus": _Linear((-0.35, 3.8, 8.1), (-0.2, 1.9, 8.2), 0.3, 3.0, 45),
