@@ -7,9 +7,14 @@ import numpy as np
 import pytest
 import trimesh
 
+from headstudio.head.makehuman import makehuman
 from headstudio.head.mannequin.build import mannequin
 from headstudio.head.mesh import TriangleMesh
 from headstudio.wrinkle.body_part import body_part, face_part, split_at_seams
+from headstudio.wrinkle.default_furrows import default_furrows
+from headstudio.wrinkle.face_chart import FaceChart
+from headstudio.wrinkle.face_creases import face_layout
+from headstudio.wrinkle.laid_furrow import LaidFurrow
 from headstudio.wrinkle.mapping import map_face, map_head, map_to_texture
 from headstudio.wrinkle.one_to_one import distortion, signed_areas, why_not_one_to_one
 from headstudio.wrinkle.projection import Layout, TextureMapError, axis_is_free
@@ -189,3 +194,17 @@ def test_an_axis_is_free_where_it_passes_no_triangle():
     middle = ring.bounds.mean(axis=0)
     assert axis_is_free(ring, middle, np.array([0.0, 1.0, 0.0]))
     assert not axis_is_free(ring, middle, np.array([1.0, 0.1, 0.03]))
+
+
+def test_a_socket_with_no_eye_in_it_does_not_shrink_to_a_point_of_the_map():
+    """Lengths on the skin mean something everywhere on the map, and so furrows at the eyes are as long as they are drawn."""
+    blind = replace(makehuman(), parts=())
+    layout = face_layout(blind)
+    texture_map = layout.texture_map
+    shown = signed_areas(texture_map.corner_uv) * texture_map.metres**2 / layout.part.mesh.face_areas
+    assert shown.min() > 1e-3
+    chart = FaceChart(blind, layout)
+    laid = [chart.to_texture(furrow) for furrow in default_furrows(0.5) if furrow.region == "eye corner"]
+    lengths = [LaidFurrow(furrow, layout).length for furrow in laid if furrow is not None]
+    assert len(lengths) == 8
+    assert max(lengths) < 0.05

@@ -9,8 +9,8 @@ import numpy as np
 from ..head.head import Head
 from ..head.mesh import Floats, TriangleMesh
 from ..head.repair import face_components
-from .body_part import BodyPart, face_part, head_part
-from .one_to_one import why_not_one_to_one
+from .body_part import BodyPart, body_part, face_part, head_part
+from .one_to_one import signed_areas, why_not_one_to_one
 from .projection import Layout, TextureMapError, axis_is_free, project_on_plane, roll_off_cylinder
 from .relaxation import relax as relax_springs
 from .texture_map import TextureMap
@@ -21,6 +21,8 @@ METHODS = ("planar", "cylindrical", "uv")
 _MARGIN = 0.02
 # From the nape to the middle of the neck [heights of the head]: the first that keeps within it. Some necks are slim.
 _NECK_RADII = (0.25, 0.2, 0.15, 0.1, 0.05)
+# What has less than this part of its area in the map is at the bottom of a pocket.
+_POCKET = 1e-3
 
 
 def map_to_texture(
@@ -64,13 +66,29 @@ def map_to_texture(
 
 @lru_cache(maxsize=2)
 def map_face(head: Head) -> tuple[BodyPart, TextureMap]:
-    """The face of a head, rolled off a cylinder about the skull and relaxed."""
+    """The face of a head, rolled off a cylinder about the skull and relaxed.
+
+    A pocket, as a socket with no eye in it, has a border that is too short for all that hangs on it: its floor would be a
+    point of the map, where lengths mean nothing. It is left out.
+    """
+    part = face_part(head)
+    while True:
+        texture_map = _face_map(head, part)
+        shown = signed_areas(texture_map.corner_uv) * texture_map.metres**2 > _POCKET * part.mesh.face_areas
+        if shown.all():
+            return part, texture_map
+        kept = np.zeros(len(head.skin.faces), dtype=bool)
+        kept[part.faces[shown]] = True
+        part = body_part(head.skin, kept)
+
+
+def _face_map(head: Head, part: BodyPart) -> TextureMap:
     # The axis runs through the middle of neck and skull: it leans forward, as heads do.
-    part, skull, marks = face_part(head), _between_ears(head), head.landmarks
+    skull, marks = _between_ears(head), head.landmarks
     height = marks.crown[1] - marks.chin[1]
     ways = [skull - (marks.nape * [0, 1, 1] + [0, 0, radius * height]) for radius in _NECK_RADII]
     along = next((way for way in ways if axis_is_free(part.mesh, skull, way)), ways[0])
-    return part, map_to_texture(part.mesh, "cylindrical", axis=skull, along=along)
+    return map_to_texture(part.mesh, "cylindrical", axis=skull, along=along)
 
 
 @lru_cache(maxsize=2)
