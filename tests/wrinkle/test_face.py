@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from headstudio.head.head import Head
 from headstudio.head.load import load_head
 from headstudio.head.locate import Locator
+from headstudio.head.parts import joined
 from headstudio.params import assign
 from headstudio.wrinkle.expressions import EXPRESSIONS
 from headstudio.wrinkle.face import Face, FacePose
@@ -291,8 +292,24 @@ def test_lids_that_cannot_close_say_why(faces):
     face = faces["mannequin"]
     blink, smiling_left = (assign(FaceSettings(), asked) for asked in ({"blink": 1.0}, {"smile_left": 1.0}))
     assert face.why_lids_stay(blink) is None
-    blind = Face(replace(face.head, parts=tuple(part for part in face.head.parts if part.kind != "eye")))
+    # Eyes that are part of the skin, as in a scan: what closes the sockets lies before where the balls would be.
+    forward = np.array([0.0, 0.0, 0.004])
+    balls = [part.mesh.moved(part.mesh.vertices + forward) for part in face.head.parts if part.kind == "eye"]
+    sealed = joined([replace(face.head.skin, corner_uv=None), *balls])
+    blind = Face(replace(face.head, skin=sealed, parts=(), expressions={}))
     assert blind.why_lids_stay(FaceSettings()) is None
     assert "both eyes" in blind.why_lids_stay(blink)
-    assert "no eyeball" in blind.why_lids_stay(blink)
+    assert "no opening" in blind.why_lids_stay(blink)
     assert "the left eye" in blind.why_lids_stay(smiling_left)
+
+
+@pytest.mark.parametrize("name", ["mannequin", "makehuman"])
+def test_lids_close_over_sockets_that_are_empty(faces, name):
+    seeing = faces[name]
+    blind = Face(replace(seeing.head, parts=tuple(part for part in seeing.head.parts if part.kind != "eye")))
+    assert blind.why_lids_stay(assign(FaceSettings(), {"blink": 1.0})) is None
+    rest, squint, blink = (
+        _seen_of_eyes(seeing, show(blind, None, **asked).positions) for asked in ({}, {"squint": 1.0}, {"blink": 1.0})
+    )
+    assert squint < 0.85 * rest
+    assert blink < 0.1 * rest

@@ -206,9 +206,13 @@ def test_a_straight_and_even_groove_costs_nothing_for_bends():
     assert cost[0] < 1e-6 * cost[1]
 
 
-def test_one_line_is_one_furrow(fit):
-    """Those that others can make good for are left out, and none winds about."""
+def test_a_line_is_two_furrows_at_most_and_none_winds_about(fit):
+    """Those that others can make good for are left out, and bends cost: none turns by more than half a turn in all."""
     assert len(fit.grooves) <= 2 * len(LINES)
+    for groove in fit.grooves:
+        along = np.diff(groove.chain.sampled(SAMPLES)[1], axis=0)
+        turns = np.diff(np.unwrap(np.arctan2(along[:, 1], along[:, 0])))
+        assert np.abs(turns).sum() < np.pi
 
 
 def test_a_groove_as_a_furrow_is_as_deep_as_its_floor_and_makes_the_same_of_the_skin():

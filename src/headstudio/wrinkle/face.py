@@ -13,7 +13,7 @@ from ..head.mesh import Floats, Ints
 from .expressions import BLINK, EXPRESSIONS, JAW_OPEN, Expression
 from .face_settings import FaceSettings
 from .jaw import find_jaw
-from .lids import find_lids
+from .lids import find_lids, usual_eye
 from .muscle_set import SIDES, place_muscles
 from .part_motion import BrowMotion, EyeMotion, JawPartMotion, LashMotion
 from .tissue import TissueLift
@@ -59,8 +59,11 @@ class Face:
         self._columns, self._fields = _fields(head)
         self._jaw = find_jaw(head)
         self._jawed: Ints = np.nonzero(self._jaw.weight > 1e-4)[0]
-        eyes = [part for part in head.parts if part.kind == "eye" and part.axis is not None]
-        found = {_side_of(eye): find_lids(head.skin, head.landmarks, eye) for eye in eyes}
+        eyes = {_side_of(part): part for part in head.parts if part.kind == "eye" and part.axis is not None}
+        found = {
+            side: find_lids(head.skin, head.landmarks, eyes.get(side) or usual_eye(head.landmarks, side))
+            for side in SIDES
+        }
         self._lids = {side: lids for side, lids in found.items() if lids is not None}
         self._tissue = TissueLift(head.skin, self._faces_that_move())
         self._motions = self._part_motions()
@@ -83,12 +86,7 @@ class Face:
         if not still:
             return None
         which = "both eyes" if len(still) == 2 else f"the {still[0]} eye"
-        balls = {_side_of(part) for part in self.head.parts if part.kind == "eye" and part.centre is not None}
-        if not balls.issuperset(still):
-            return (
-                f"lids of {which} do not move: this head has no eyeball behind them, apart from its skin, to slide over"
-            )
-        return f"lids of {which} do not move: the skin leaves no opening before the eyeball"
+        return f"lids of {which} do not move: the skin leaves no opening before an eyeball"
 
     def pose(self, settings: FaceSettings, thickness: Floats | None = None) -> FacePose:
         """The face as ``settings`` sets its sliders; a performance is not looked at, see ``FaceSettings.at``.

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
+from ..head.eyes import eyeball
 from ..head.head import Landmarks, Part
 from ..head.locate import locator
 from ..head.mesh import Floats, Ints, TriangleMesh
@@ -27,6 +28,8 @@ _FOLLOWING = np.radians([42.0, 34.0])
 _MEETING = 0.28
 # Skin stays at least this far from the middle, if it was so at rest.
 _CLEAR = 1.05
+# Half as wide as this part of the height of the head is an eye that is not there.
+_USUAL = 0.06
 _COLUMNS = np.linspace(-0.98, 0.98, 50)
 _ANGLES = np.radians(np.linspace(-80.0, 80.0, 161))
 
@@ -95,6 +98,14 @@ class Lids:
 def turned_down(fall: Floats, rise: Floats, upper: float, lower: float) -> Floats:
     """How far points turn down that fall and rise so far when lids close [rad], (k,); see ``Lids.turns``."""
     return min(upper, 1.0) * fall - min(lower, 1.0) * rise
+
+
+def usual_eye(marks: Landmarks, side: str) -> Part:
+    """Where an eye of usual size would be behind the lids of one side ("left" or "right") of a head that has none."""
+    pupil = marks.left_eye if side == "left" else marks.right_eye
+    forward = np.array([0.0, 0.0, 1.0])
+    radius = _USUAL * float(marks.crown[1] - marks.chin[1])
+    return eyeball(pupil - radius * forward, forward, radius)
 
 
 def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:
