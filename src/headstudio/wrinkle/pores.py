@@ -16,6 +16,8 @@ _SPACING = 2.6
 _CANDIDATES = 4
 # Where pores are fewer they are smaller, too: the smallest are this part of the largest.
 _SMALLEST = 0.45
+# Spacings are sorted by size, so many sizes to twice a size.
+_RANKS = 3
 # Where pores are few their centres are at most this much farther apart, inverse.
 _SPARSEST = 0.3
 
@@ -52,23 +54,36 @@ def dimples(
 def _keep_apart(points: Floats, spacings: Floats, texels: TexelMap) -> Flags:
     """Which points stay, (k,), when each takes its place in turn unless one that did is too near.
 
-    As with furrows, repeating the rule from "all stay" settles the first point at once, then the second, and so on.
+    A point with no earlier one near it stays, and drives away the later ones near it; then the rule holds for those that
+    are left. Each round only the pairs among these are looked at.
     """
     box = None
     if texels.period:
         # No distance around the image in y: a box so high that its ends are far apart.
         points = np.stack([points[:, 0] % texels.period, points[:, 1] + texels.size], axis=1)
         box = [texels.period, 4 * texels.size]
-    pairs: Ints = cKDTree(points, boxsize=box).query_pairs(spacings.max(), output_type="ndarray")
-    offsets = np.abs(points[pairs[:, 0]] - points[pairs[:, 1]])
-    if texels.period:
-        offsets[:, 0] = np.minimum(offsets[:, 0], texels.period - offsets[:, 0])
-    near = np.hypot(offsets[:, 0], offsets[:, 1]) < spacings[pairs].max(axis=1)
-    earlier, later = pairs[near].min(axis=1), pairs[near].max(axis=1)
-    stays = np.ones(len(points), dtype=bool)
-    while True:
-        settled = np.ones(len(points), dtype=bool)
-        settled[later[stays[earlier]]] = False
-        if np.array_equal(settled, stays):
-            return stays
-        stays = settled
+    everywhere = cKDTree(points, boxsize=box)
+    # Points that keep about the same distance look for others together; of two it is the one that keeps more.
+    ranks = np.floor(_RANKS * np.log2(spacings)).astype(np.int64)
+    found = []
+    for rank in np.unique(ranks):
+        own = np.flatnonzero(ranks == rank)
+        near = cKDTree(points[own], boxsize=box).sparse_distance_matrix(
+            everywhere, spacings[own].max(), output_type="ndarray"
+        )
+        one, other = own[near["i"]], near["j"]
+        close = (near["v"] < spacings[one]) & (one != other)
+        found.append(np.stack([one[close], other[close]]))
+    pairs: Ints = np.concatenate(found, axis=1)
+    earlier, later = pairs.min(axis=0), pairs.max(axis=0)
+    stays, undecided = np.zeros((2, len(points)), dtype=bool)
+    undecided[:] = True
+    while len(earlier):
+        free = undecided.copy()
+        free[later] = False
+        stays |= free
+        undecided &= ~free
+        undecided[later[free[earlier]]] = False
+        left = undecided[earlier] & undecided[later]
+        earlier, later = earlier[left], later[left]
+    return stays | undecided
