@@ -2,11 +2,13 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from headstudio.head.depth import SkinDepth
 from headstudio.head.frame import HeadFrame
 from headstudio.head.locate import locator
 from headstudio.head.mesh import TriangleMesh
+from headstudio.head.mouth import lines_mouth
 from headstudio.head.sampling import sample_surface
 from headstudio.wisp.proportions import Proportions
 from headstudio.wisp.surroundings import Surroundings
@@ -17,7 +19,9 @@ from .dressed import body
 def beside_skin(head, depth: float, count: int = 4000) -> np.ndarray:
     """Points from ``depth`` below the skin to as far above it."""
     rng = np.random.default_rng(5)
-    points, normals = sample_surface(head.skin, 0.004)
+    # No hair gets into a mouth.
+    outer = ~lines_mouth(head.skin, head.landmarks)[head.skin.faces].any(axis=1)
+    points, normals = sample_surface(TriangleMesh(head.skin.vertices, head.skin.faces[outer]), 0.004)
     chosen = rng.choice(len(points), count)
     return points[chosen] + rng.uniform(-depth, depth, (count, 1)) * normals[chosen]
 
@@ -92,8 +96,11 @@ def test_a_hole_in_the_face_gets_a_lid_and_changes_nothing_below_it():
     opened = Surroundings.around(open_head)
     nodes = surroundings.skin_grid.nodes
     below = (nodes[:, 1] < marks.left_eye[1] - 0.05) & (nodes[:, 1] > skin.bounds[0, 1])
+    below &= cKDTree(skin.vertices[lines_mouth(skin, marks)]).query(nodes)[0] > 0.02
     now, before = opened.distance(nodes[below]), surroundings.distance(nodes[below])
     # Away from the skin distances are known to a voxel, but not to the side.
-    np.testing.assert_allclose(now[np.abs(before) < 0.004], before[np.abs(before) < 0.004], atol=1e-4)
-    np.testing.assert_array_equal(now < 0, before < 0)
+    # Single nodes between the mouth and the skin under the jaw, which are a voxel or two apart, may count for either.
+    near = np.abs(before) < 0.004
+    assert (np.abs(now[near] - before[near]) > 1e-4).mean() < 2e-4
+    assert ((now < 0) != (before < 0)).mean() < 2e-4
     assert opened.distance(np.array(holes) - [0.0, 0.0, 0.03]).max() < 0.0
