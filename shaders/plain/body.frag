@@ -47,7 +47,8 @@ void main() {
 
     vec3 at = (hair_box * vec4(v_place + n * 0.001, 1.0)).xyz * 0.5 + 0.5;
     float lit = n_l > 0.0 ? past_objects_at(light_box(v_place + (n + l) * 0.0015), 0.001) : 0.0;
-    vec3 sun = pi * radiance.rgb * n_l * lit * passing(pile(sent_forward, sent_back), hair_crossed(at), 0.0);
+    vec3 through = max(going_on(pile(sent_forward, sent_back), hair_crossed(at), 0.0), past_hair(at));
+    vec3 sun = pi * radiance.rgb * n_l * lit * through;
     float sheen = coat(n_v);
     colour = vec4(sun * (diffuse / pi * (1.0 - sheen) + shine) + soft / pi * (diffuse * (1.0 - sheen) + sheen), 1.0);
 }

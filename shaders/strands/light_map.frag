@@ -20,5 +20,5 @@ void main() {
     if (min(depth, min(min(depth_at(at + vec2(rim)), depth_at(at - vec2(rim))),
                        min(depth_at(at + vec2(rim, -rim)), depth_at(at + vec2(-rim, rim))))) >= 1.0) return;
     vec3 seen = vec3(at / size, depth) * 2.0 - 1.0;
-    light = exp(-hair_crossed((hair_box_from_light * vec4(seen, 1.0)).xyz * 0.5 + 0.5));
+    light = past_hair((hair_box_from_light * vec4(seen, 1.0)).xyz * 0.5 + 0.5);
 }

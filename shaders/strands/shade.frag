@@ -97,8 +97,11 @@ void main() {
             + scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider))
             + passed * on(sent_in) * sent_back_by(pile_in, behind)
                 * along_hair(sin_in, sin_out, vec4(0.0)).z * 0.5 * max(cos(phi), 0.0);
-        from_sky = max(sent[0] * level + sent[2] * aside, 0.0) + max(sent[1] * level + sent[3] * aside, 0.0)
-            + on(sent) * sent_back_by(pile_out, roundabout * behind) * max(level + 0.25 * pi * aside, 0.0);
+        // Half of what comes is sky; the rest of that half has met strands.
+        vec3 met_soft = -log(clamp(4.0 * level / max(sky.rgb + ground.rgb, 1e-6), 0.05, 1.0)) / max(pile_out.rate, 0.05);
+        vec3 gain = unseen_gain(met_soft, pile_out.rate, radius_count);
+        from_sky = max(sent[0] * level + sent[2] * aside, 0.0) + gain * max(sent[1] * level + sent[3] * aside, 0.0)
+            + gain * on(sent) * sent_back_by(pile_out, roundabout * behind) * max(level + 0.25 * pi * aside, 0.0);
     } else {
         vec3 colour = exp(-sqrt(absorption) * colour_slope);
         from_light = direct * kajiya_kay(sin_in, sin_out, colour, 0.05) + scattered * kajiya_kay(sin_in, sin_out, colour, 0.0);

@@ -15,5 +15,6 @@ void main() {
     vec3 place = turned(texelFetch(receivers, ivec2(gl_FragCoord.xy), 0).xyz, head_turn.xyz) + head_shift.xyz;
     place += to_light.xyz * 0.001;
     vec3 in_hair = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
-    lit = vec4(past_objects_at(light_box(place), 0.001) * passing(pile(sent_forward, sent_back), hair_crossed(in_hair), 0.0), 1.0);
+    vec3 through = max(going_on(pile(sent_forward, sent_back), hair_crossed(in_hair), 0.0), past_hair(in_hair));
+    lit = vec4(past_objects_at(light_box(place), 0.001) * through, 1.0);
 }

@@ -12,14 +12,16 @@ ASKING = """#version 330
 {included}
 in vec3 asked;
 out float count;
-void main() {{ count = crossed_unseen(asked.x, asked.y, asked.z); }}
+void main() {{ count = {said}; }}
 """
+CROSSED = "crossed_unseen(asked.x, asked.y, asked.z)"
+GAIN = "unseen_gain(vec3(asked.x), vec3(asked.z), asked.y).r"
 
 
-def crossed_unseen(context: moderngl.Context, asked: np.ndarray) -> np.ndarray:
+def crossed_unseen(context: moderngl.Context, asked: np.ndarray, said: str = CROSSED) -> np.ndarray:
     """What the shader says of count, count within a radius, and azimuth, (n, 3): (n,)."""
     included = shader("common/hot_spot.glsl").read_text()
-    program = context.program(vertex_shader=ASKING.format(included=included), varyings=["count"])
+    program = context.program(vertex_shader=ASKING.format(included=included, said=said), varyings=["count"])
     given, answer = context.buffer(asked.astype("f4").tobytes()), context.buffer(reserve=4 * len(asked))
     context.simple_framebuffer((4, 4)).use()
     context.vertex_array(program, [(given, "3f", "asked")]).transform(answer, moderngl.POINTS, vertices=len(asked))
@@ -49,3 +51,17 @@ def test_strands_that_would_hide_a_place_do_not_shade_it(gl: moderngl.Context, p
 def test_from_where_the_sun_is_nothing_seen_is_in_shadow(gl: moderngl.Context) -> None:
     counts = crossed_unseen(gl, np.array([[3.0, 0.2, 0.0], [3.0, 0.2, np.pi], [0.0, 0.2, 1.0], [3.0, 0.0, 1.0]]))
     np.testing.assert_allclose(counts, [0.0, 3.0, 0.0, 3.0], atol=0.03)
+
+
+@pytest.mark.parametrize("rate", [0.3, 1.0])
+def test_soft_light_from_the_eyes_side_has_met_fewer(gl: moderngl.Context, rate: float) -> None:
+    """Against a fine sum over the azimuths."""
+    phi = (np.arange(400) + 0.5) / 400 * np.pi / 2
+    asked = np.array([[0.5, 0.05, 0.0], [1.0, 0.3, 0.0], [2.0, 0.3, 0.0], [1.0, 0.0, 0.0]])
+    asked[:, 2] = rate
+    gains = crossed_unseen(gl, asked, GAIN)
+    for (met, radius_count, _), gain in zip(asked, gains, strict=True):
+        crossed = crossed_unseen(gl, np.stack([np.full(400, met), np.full(400, radius_count), phi], axis=1))
+        assert gain == pytest.approx(np.exp(rate * (met - crossed)).mean(), rel=0.03)
+    assert gains[3] == pytest.approx(1.0)
+    assert gains[1] > gains[0] > 1.0

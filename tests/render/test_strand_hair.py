@@ -11,8 +11,9 @@ import pytest
 from headstudio.head.frame import HeadFrame
 from headstudio.head.head import Head
 from headstudio.head.mesh import Floats
-from headstudio.render.deep_opacity import LAYER_DEPTHS
+from headstudio.render.deep_opacity import LAYER_DEPTHS, taken
 from headstudio.render.fibre import Fibre, melanin_absorption, scattering
+from headstudio.render.light_volume import Grid, lit_from_beside
 from headstudio.render.renderer import Renderer
 from headstudio.render.scene_block import SCENE_DTYPE
 from headstudio.render.sky_light import Sky, SkyLight, SkyPrograms, irradiance
@@ -165,7 +166,9 @@ def test_shader_scatters_as_the_reference_does(
 
 
 def test_light_through_strands_is_that_of_kubelka_and_munk(gl: moderngl.Context, programs: StrandPrograms) -> None:
-    strands = fur(3_000, points=8)
+    strands = fur(
+        18_000, points=8, radius=2.5e-5
+    )  # so much thinner than a texel that light past them falls as exp(-count)
     hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
     low, high = strands.points.min(axis=0), strands.points.max(axis=0)
     places = np.random.default_rng(9).uniform(low, high, (300, 3))
@@ -219,6 +222,48 @@ def test_a_ball_hides_its_part_of_the_sky(gl: moderngl.Context, programs: Strand
     assert light[1, 1, 0] == pytest.approx(1.0, abs=0.1)
     down = irradiance(light, np.array([[0.0, -1.0, 0.0], [0.0, -1.0, 0.0]]))
     assert down[0] == pytest.approx(np.pi, rel=0.15)
+
+
+def test_strands_that_cover_texels_let_through_as_much_as_rays_that_miss_them() -> None:
+    """Strands strewn at random: in the mean exp(-lost count) comes through, however much of a texel each one covers."""
+    lost, mean = np.array([0.2, 0.6, 0.95]), 1.5
+    for cover in (0.02, 0.5, 0.99):
+        counts = cover * np.random.default_rng(4).poisson(mean / cover, 200_000)
+        through = np.exp(-taken(lost, cover) * counts[:, None]).mean(axis=0)
+        np.testing.assert_allclose(through, np.exp(-lost * mean), rtol=0.02)
+    np.testing.assert_allclose(taken(lost, 1e-3), lost, rtol=1e-3)
+
+
+def test_light_from_below_reaches_a_place_under_an_overhang(gl: moderngl.Context, programs: StrandPrograms) -> None:
+    """A ball hides the place from above; a floor below it shines, and the ball does not."""
+    body, half, depth = ball(), 0.3, 0.2
+    corners = np.array([[-half, -depth, -half], [-half, -depth, half], [half, -depth, half], [half, -depth, -half]])
+    vertices = np.concatenate([body.vertices, corners])
+    faces = np.concatenate([body.faces, len(body.vertices) + np.array([[0, 1, 2], [0, 2, 3]])])
+    hair = StrandHair(gl, programs, StrandSurvey(fur(2, radius=1e-7)), 2, FINE)
+    sky_light = SkyLight(gl, SkyPrograms(gl), programs.opacity, vertices, faces, FINE)
+    hair.see_from_sky(sky_light)
+    shining = np.arange(len(vertices)) >= len(body.vertices)
+    sky_light.see_body(np.repeat(shining[:, None], 3, axis=1).astype(float))
+    dark = Sky(np.zeros(3), np.zeros(3), np.array([0.0, 1.0, 0.0]))
+    under, within = np.array([0.0, -0.09, 0.0]), np.array([0.0, -0.05, 0.0])
+    light = sky_light.gather(np.stack([under, within]), dark, np.ones(3))
+    # The part of all directions that a square fills, seen from above its middle.
+    tall = depth + under[1]
+    wanted = np.arcsin(half**2 / (half**2 + tall**2)) / np.pi
+    assert light[0, 1, 0] == pytest.approx(wanted, abs=0.05)
+    assert light[0, 1, 2] < -wanted  # it comes from below
+    assert not light[1].any()
+
+
+def test_hair_on_the_skin_reads_no_darkness_from_within_the_body() -> None:
+    grid = Grid(np.zeros(3), 0.004, (3, 3, 3), np.arange(27))
+    light = np.random.default_rng(2).uniform(0.1, 1.0, (27, 3, 4))
+    light[:9] = 0.0  # z = 0 is under the skin
+    filled = lit_from_beside(grid, light)
+    np.testing.assert_array_equal(filled[9:], light[9:])
+    np.testing.assert_allclose(filled[4], light[9:18].mean(axis=0))  # has all nine of the next layer beside it
+    np.testing.assert_allclose(filled[0], light[[9, 10, 12, 13]].mean(axis=0))
 
 
 class TestPicture:

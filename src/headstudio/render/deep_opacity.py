@@ -21,6 +21,19 @@ LAYER_DEPTHS = np.array([0.0015, 0.004, 0.008, 0.015, 0.027, 0.048, 0.085, 0.15]
 """Behind the first hair [m]; the last layer holds all that is still deeper, too."""
 
 
+# Of the light, by one strand in the logarithm: which has no value for all.
+_MOST_TAKEN = 0.98
+
+
+def taken(lost: Floats, cover: float) -> Floats:
+    """By what the logarithm of light falls with the count, (n,), where a strand takes the parts ``lost`` of it, (n,).
+
+    A count is the sum of what strands ``cover`` of a texel, and every one leaves 1 - cover lost of what there is in the texel.
+    With strands much thinner than that it is ``lost`` itself; one that covers all of it leaves 1 - lost, and exp(-lost) is more.
+    """
+    return -np.log1p(-np.minimum(cover * lost, _MOST_TAKEN)) / cover
+
+
 class OpacityPrograms:
     """The shaders that fill deep opacity maps."""
 
@@ -39,9 +52,13 @@ class LightStrips:
         textures: StrandTextures,
         indices: NDArray[np.uint32],
         widening: float,
+        width: float,
     ) -> None:
-        """widening: how many times too thick they are to be taken, to stand for all strands."""
+        """widening: how many times too thick they are to be taken, to stand for all strands; width: of a strand as it is, in
+        the mean [m].
+        """
         self.widening = widening
+        self.width = widening * width
         self._programs = programs
         self._textures = textures
         self._count = len(indices)
@@ -76,6 +93,8 @@ class DeepOpacityMap:
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._counts_target = context.framebuffer([self.near_counts, self.far_counts])
         self._depths: dict[str, object] = {}
+        self.cover = 1.0
+        """The part of a texel that a strand covers, in the mean."""
 
     def fill(self, strips: LightStrips, pose: Floats, lights: list[View]) -> None:
         """Draw the strands as the lights see them, which look at boxes of the same size.
@@ -84,6 +103,7 @@ class DeepOpacityMap:
         """
         box = lights[0].far
         depths = LAYER_DEPTHS / box
+        self.cover = float(np.clip(strips.width * self.size / box, 1e-3, 1.0))
         self._depths = {"near_depths": tuple(depths[:4]), "far_depths": tuple(depths[4:])}
         with self._context.scope(self._front_target, moderngl.DEPTH_TEST):
             self._front_target.clear(depth=1.0)
@@ -104,7 +124,10 @@ class DeepOpacityMap:
         """Bind the textures to three units from ``first_unit`` on; returns the uniforms of common/deep_opacity.glsl."""
         for k, texture in enumerate((self.front, self.near_counts, self.far_counts)):
             texture.use(first_unit + k)
-        return {"front": first_unit, "near_counts": first_unit + 1, "far_counts": first_unit + 2, **self._depths}
+        return {
+            "front": first_unit, "near_counts": first_unit + 1, "far_counts": first_unit + 2, **self._depths,
+            "opaque": float(taken(np.ones(1), self.cover)[0]),
+        }  # fmt: skip
 
     def _look_at(self, target: moderngl.Framebuffer, tile: int) -> None:
         corner = (tile % self.tiles * self.size, tile // self.tiles * self.size)

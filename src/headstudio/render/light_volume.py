@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 
 import moderngl
 import numpy as np
@@ -50,6 +51,28 @@ def grid_around(points: Singles, finest: float) -> Grid:
         cell = np.concatenate([cell, cell + step])
     used[cell] = True
     return Grid(low, spacing, (nx, ny, nz), np.flatnonzero(used))
+
+
+def lit_from_beside(grid: Grid, light: Floats) -> Floats:
+    """The light at the nodes near hair, (k, 3, 4), where those inside the body, which have none, take the mean of the nodes
+    around them that have some: hair that lies on the skin reads nodes on both of its sides.
+    """
+    nx, ny, nz = grid.shape
+    row = np.full((nz + 2, ny + 2, nx + 2), -1, np.int32)  # of every node in ``light``, with a rim
+    flat = grid.near_hair
+    x, y, z = flat % nx + 1, flat // nx % ny + 1, flat // (nx * ny) + 1
+    row[z, y, x] = np.arange(len(flat))
+    lit = light.any(axis=(1, 2))
+    dark = np.flatnonzero(~lit)
+    total, count = np.zeros((len(dark), 3, 4)), np.zeros(len(dark))
+    for dx, dy, dz in product((-1, 0, 1), repeat=3):
+        beside = row[z[dark] + dz, y[dark] + dy, x[dark] + dx]
+        has = (beside >= 0) & lit[beside]
+        total[has] += light[beside[has]]
+        count[has] += 1.0
+    filled = light.copy()
+    filled[dark] = total / np.maximum(count, 1.0)[:, None, None]
+    return filled
 
 
 class LightVolume:

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 from .context import load_program, set_uniforms
-from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
+from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms, taken
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky import sphere_directions
@@ -67,10 +67,14 @@ class SkyLight:
         side = BODY_SIZE * self._tiles
         self._body = context.texture((side, side), 4, dtype="f4")
         self._body.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self._body_target = context.framebuffer([self._body], context.depth_texture((side, side)))
+        # What lies under an overhang: of all that faces a direction the last.
+        self._far_body = context.texture((side, side), 4, dtype="f4")
+        self._far_body.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        depth = context.depth_texture((side, side))
+        self._body_target, self._far_target = (
+            context.framebuffer([seen], depth) for seen in (self._body, self._far_body)
+        )
         self._corners = 3 * len(faces)
-        self._shares = vertex_shares(vertices, faces)
-        self._mean: Floats = np.zeros(3)
         self._radiance = context.buffer(reserve=max(12 * len(vertices), 4))
         self._surface = context.vertex_array(
             programs.body,
@@ -100,10 +104,14 @@ class SkyLight:
     def see_body(self, radiance: Floats) -> None:
         """Look at the body from everywhere; ``radiance`` of every vertex, linear RGB, (n, 3)."""
         self._radiance.write(radiance.astype("f4").tobytes())
-        self._mean = self._shares @ radiance
-        target = self._body_target
-        with self._context.scope(target, moderngl.DEPTH_TEST):
-            target.clear(0.0, 0.0, 0.0, _FAR, depth=1.0)
+        self._look_at_body(self._body_target, "<", moderngl.DEPTH_TEST)
+        self._look_at_body(self._far_target, ">", moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+
+    def _look_at_body(self, target: moderngl.Framebuffer, nearer: str, flags: int) -> None:
+        """From everywhere, where of what lies behind one another that is seen whose depth is ``nearer``."""
+        with self._context.scope(target, flags):
+            self._context.depth_func = nearer
+            target.clear(0.0, 0.0, 0.0, _FAR, depth=1.0 if nearer == "<" else 0.0)
             for tile, light in enumerate(self._views):
                 target.viewport = (
                     tile % self._tiles * BODY_SIZE,
@@ -114,29 +122,22 @@ class SkyLight:
                 set_uniforms(self._programs.body, map_from_head=tuple(light.clip_from_world.T.ravel()))
                 self._surface.render(vertices=self._corners)
             target.viewport = (0, 0, *target.size)
+            self._context.depth_func = "<"
 
     def gather(self, places: Floats, sky: Sky, lost: Floats, clear: float = 0.0) -> Floats:
-        """The light that arrives at ``places`` [m], (n, 3): mean and slope for every colour, (n, 3, 4).
+        """The light that arrives at ``places`` [m], (n, 3): mean and slope for every colour, (n, 3, 4); none inside the body.
 
         lost: of light that meets a strand, the part that does not go on, RGB. clear: no strand is so near to a place [m].
         """
         self._frames.use(1)
         self._body.use(2)
+        self._far_body.use(3)
         return receive(
-            self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, tiles=self._tiles,
+            self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, far_body=3, tiles=self._tiles,
             body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
-            lost=tuple(lost), sky_above=tuple(sky.above),
-            sky_below=tuple(sky.below), upward=tuple(sky.upward), body_mean=tuple(self._mean), bias=_BIAS, clear=clear,
-            **self._hair.bind(3),
+            taken=tuple(taken(lost, self._hair.cover)), sky_above=tuple(sky.above),
+            sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS, clear=clear, **self._hair.bind(4),
         )  # fmt: skip
-
-
-def vertex_shares(vertices: Floats, faces: Ints) -> Floats:
-    """The part of the area of triangles that lies around each vertex, (n,); zeros without any."""
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    shares = np.bincount(faces.ravel(), np.repeat(areas, 3), minlength=len(vertices))
-    return shares / max(float(shares.sum()), 1e-12)
 
 
 def irradiance(light: Floats, normals: Floats) -> Floats:

@@ -16,7 +16,7 @@ from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
 from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, lost_in_strands, sent_on
 from .fibre_textures import FibreTextures
-from .light_volume import LightVolume, grid_around
+from .light_volume import LightVolume, grid_around, lit_from_beside
 from .occlusion import Occluder
 from .receivers import receive
 from .screen import ScreenPasses
@@ -141,8 +141,9 @@ class StrandHair:
         # They lose more of their length than what is drawn.
         shortening = self.survey.shortening(step * stride) / self.survey.shortening(step)
         return LightStrips(
-            self._context, self._programs.opacity, self._textures, indices, self.widening(strands) * shortening
-        )
+            self._context, self._programs.opacity, self._textures, indices, self.widening(strands) * shortening,
+            self.survey.width,
+        )  # fmt: skip
 
     def look_from(self, view: View, frame: HeadFrame, height: int) -> None:
         """Choose how many strands are shaded and drawn in a picture ``height`` pixels high: so many that none is wider than
@@ -192,7 +193,7 @@ class StrandHair:
         """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
         if self._soft is not None:
             self._soft.release()
-        light = sky_light.gather(self._grid.places, sky, lost, _CLEAR * self.survey.width)
+        light = lit_from_beside(self._grid, sky_light.gather(self._grid.places, sky, lost, _CLEAR * self.survey.width))
         self._soft = LightVolume(self._context, self._grid, light)
 
     def sent_on(self, material: StrandMaterial) -> tuple[Floats, Floats]:
