@@ -100,7 +100,10 @@ void main() {
         // Half of what comes is sky; the rest of that half has met strands.
         vec3 met_soft = -log(clamp(4.0 * level / max(sky.rgb + ground.rgb, 1e-6), 0.05, 1.0)) / max(pile_out.rate, 0.05);
         vec3 gain = unseen_gain(met_soft, pile_out.rate, radius_count);
-        from_sky = max(sent[0] * level + sent[2] * aside, 0.0) + gain * max(sent[1] * level + sent[3] * aside, 0.0)
+        // No more comes from one half than twice the mean, which a slope goes beyond where all of it comes from there.
+        vec3 most = 2.0 * max(level, 0.0);
+        from_sky = clamp(sent[0] * level + sent[2] * aside, vec3(0.0), sent[0] * most)
+            + gain * clamp(sent[1] * level + sent[3] * aside, vec3(0.0), sent[1] * most)
             + gain * on(sent) * sent_back_by(pile_out, roundabout * behind) * max(level + 0.25 * pi * aside, 0.0);
     } else {
         vec3 colour = exp(-sqrt(absorption) * colour_slope);
