@@ -29,7 +29,7 @@ def taken(lost: Floats, cover: float) -> Floats:
     """By what the logarithm of light falls with the count, (n,), where a strand takes the parts ``lost`` of it, (n,).
 
     A count is the sum of what strands ``cover`` of a texel, and every one leaves 1 - cover lost of what there is in the texel.
-    With strands much thinner than that it is ``lost`` itself; one that covers all of it leaves 1 - lost, and exp(-lost) is more.
+    With strands much thinner than that it is ``lost`` itself; one that covers all of it leaves 1 - lost, less than exp(-lost).
     """
     return -np.log1p(-np.minimum(cover * lost, _MOST_TAKEN)) / cover
 
