@@ -62,7 +62,7 @@ def lit_from_beside(grid: Grid, light: Floats) -> Floats:
     flat = grid.near_hair
     x, y, z = flat % nx + 1, flat // nx % ny + 1, flat // (nx * ny) + 1
     row[z, y, x] = np.arange(len(flat))
-    lit = light.reshape(len(light), 12).any(axis=1)
+    lit = np.abs(light).max(axis=(1, 2)) > 0.0
     dark = np.flatnonzero(~lit)
     total, count = np.zeros((len(dark), 3, 4)), np.zeros(len(dark))
     for dx, dy, dz in product((-1, 0, 1), repeat=3):
