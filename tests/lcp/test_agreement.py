@@ -1,5 +1,6 @@
 """The real-time solver beside the reference: the tips of a shaken head of hair, region by region."""
 
+
 import math
 import os
 from dataclasses import replace
@@ -31,22 +32,22 @@ def tips_of_regions(hair, states):
 
 
 def root_mean_square(way):
-    """Over the steps and the regions of ways, (steps, regions, 3)."""
-    return math.sqrt(np.mean(np.sum(way**2, axis=-1)))
+    """Over the steps of ways, (steps, regions, 3), region by region."""
+    return np.sqrt(np.mean(np.sum(way**2, axis=-1), axis=0))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tuning", [FREE, STIFF], ids=["free", "stiff"])
 def test_the_real_time_solver_agrees_with_the_reference(dome, ball, tuning):
-    """Tips differ by at most 20 % of their own motion."""
+    """Tips of each region differ by at most 20 % of their own motion."""
     hair = grow_hair(dome, ball, HairSettings(particles=100, length=0.2))
     exact, quick = (
         tips_of_regions(hair, shaken(hair, ball, tuning, SECONDS, VIGOROUS, solver))
         for solver in (LeapfrogSolver, ImplicitSolver)
     )
     motion = root_mean_square(exact - exact.mean(axis=0))
-    assert motion > 0.003
-    assert root_mean_square(quick - exact) < 0.2 * motion
+    assert motion.min() > 0.003
+    assert (root_mean_square(quick - exact) / motion).max() < 0.2
 
 
 def test_hair_of_any_bending_stiffness_moves_the_same_in_long_steps(dome, ball):
@@ -55,9 +56,8 @@ def test_hair_of_any_bending_stiffness_moves_the_same_in_long_steps(dome, ball):
     tuning = replace(FREE, stiffness=10.0)
     fine, quick = (
         tips_of_regions(hair, shaken(hair, ball, tuning, 0.4, VIGOROUS, partial(ImplicitSolver, parts=parts)))
-        for parts in (24, 3)
+        for parts in (24, 2)
     )
     motion = root_mean_square(fine - fine.mean(axis=0))
-    error = root_mean_square(quick - fine)
-    assert motion > 0.003
-    assert error < 0.1 * motion
+    assert motion.min() > 0.003
+    assert (root_mean_square(quick - fine) / motion).max() < 0.15
