@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from headstudio.head.rows import rows_at
 from headstudio.lcp.direction import turned, updated_directions
 from headstudio.lcp.springs import Springs
 
@@ -92,3 +93,20 @@ def test_links_that_cancel_out_change_nothing():
     new = updated(model, folded, sideways)
     assert np.all(np.isfinite(new))
     np.testing.assert_allclose(np.linalg.norm(new, axis=1), 1.0)
+
+
+def test_one_turn_of_the_directions_comes_nearly_to_where_many_lead(hair):
+    """A mean alone, eq. 15, would need tens of them where links lie across the hair."""
+    springs = Springs(hair)
+    bent = hair.rest_positions + 0.3 * np.linalg.norm(hair.rest_positions, axis=1, keepdims=True) ** 2
+    links = springs.at(bent, E)
+    at_ends = rows_at(hair.rest_directions, hair.links.T.ravel())
+    unit, cosine = np.concatenate([links.unit, -links.unit]), hair.rest_cosine.ravel(order="F")
+    mean = springs.sum_at_ends(np.tile(links.stiffness, 2)[:, None] * turned(unit, at_ends, cosine))
+    mean /= np.linalg.norm(mean, axis=1, keepdims=True)
+    once = limit = updated_directions(hair, springs, links, hair.rest_directions)
+    for _ in range(60):
+        limit = updated_directions(hair, springs, links, limit)
+    left, without = (np.median(np.linalg.norm((a - limit)[~hair.fixed], axis=1)) for a in (once, mean))
+    assert without > 0.005
+    assert left < 0.2 * without
