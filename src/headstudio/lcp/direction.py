@@ -64,8 +64,8 @@ def _hold(weight: Floats, unit: Floats, direction: Floats, cosine: Floats) -> Fl
     """What each link adds to B, the six numbers xx, xy, xz, yy, yz, zz of a symmetric matrix, (m, 6)."""
     (ux, uy, uz), (tx, ty, tz) = unit.T, direction.T
     x, y, z = uy * tz - uz * ty, uz * tx - ux * tz, ux * ty - uy * tx
-    square = x * x + y * y + z * z
-    scale = weight * _sine(cosine) / np.maximum(square, _PARALLEL**2) ** 1.5
+    square = np.maximum(x * x + y * y + z * z, _PARALLEL**2)
+    scale = weight * _sine(cosine) / (square * np.sqrt(square))
     sx, sy = scale * x, scale * y
     return np.stack([sx * x, sx * y, sx * z, sy * y, sy * z, scale * z * z]).T
 
