@@ -19,6 +19,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from ..head.rows import row_dot
 from .dynamics import Circumstances, Dynamics
@@ -61,8 +62,10 @@ class ImplicitSolver:
         """
         outer = self.dynamics.outer_acceleration(self._halfway(state, dt), now, dt)
         self._stiffen(now.settings, dt / self.parts)
+        frame = now.at(state.time)
         for _ in range(self.parts):
-            state = self._part(state, now, outer, dt / self.parts)
+            frames = frame, (frame := now.at(state.time + dt / self.parts))
+            state = self._part(state, now, frames, outer, dt / self.parts)
         return state
 
     def _stiffen(self, settings: DynamicsSettings, dt: float) -> None:
@@ -80,13 +83,18 @@ class ImplicitSolver:
             velocities=state.velocities + 0.5 * self.parts * gained,
         )
 
-    def _part(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> HairState:
-        """One step of the generalised-alpha method of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3)."""
+    def _part(
+        self, state: HairState, now: Circumstances, frames: tuple[HeadFrame, HeadFrame], outer: Floats, dt: float
+    ) -> HairState:
+        """One step of the generalised-alpha method of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3).
+
+        frames: of the head at its beginning and at its end.
+        """
         dynamics, settings = self.dynamics, now.settings
-        model, frames = dynamics.model, (now.at(state.time), now.at(state.time + dt))
+        model = dynamics.model
         mass = model.mass[:, None]
         x, v = state.positions, state.velocities
-        x_before, v_before = state.before or self._earlier(state, now, outer, dt)
+        x_before, v_before = state.before or self._earlier(state, now, frames[0], outer, dt)
         x_hat, v_hat = gone_on(x, x_before) + way_begun(v, dt), gone_on(v, v_before)
         g, gained = WEIGHT * dt, v - v_before
 
@@ -129,9 +137,11 @@ class ImplicitSolver:
         pressing = np.where(held & bounds.rubs, pressing, model.mass * impulse / g)
         return HairState(x_new, v_new, directions, state.time + dt, before, pressing)
 
-    def _earlier(self, state: HairState, now: Circumstances, outer: Floats, dt: float) -> tuple[Floats, Floats]:
+    def _earlier(
+        self, state: HairState, now: Circumstances, frame: HeadFrame, outer: Floats, dt: float
+    ) -> tuple[Floats, Floats]:
         """What the first part looks back to: positions and velocities a part of dt [s] before on a straight path."""
-        dynamics, settings, frame = self.dynamics, now.settings, now.at(state.time)
+        dynamics, settings = self.dynamics, now.settings
         x, v = state.positions, state.velocities
         touch = dynamics.touch(x, frame)
         links = dynamics.links(x, settings)
