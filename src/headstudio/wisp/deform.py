@@ -14,6 +14,7 @@ from .density import DensityField
 from .field import force_field
 from .flow import Flow
 from .hairdressing import queues_of
+from .layers import Layers
 from .outlines import Outlines
 from .queues import Queue, QueueReport, run
 from .styling_settings import StylingSettings
@@ -64,7 +65,8 @@ class Deformer:
 
         def let_down() -> tuple[Flow, list[QueueReport]]:
             density = DensityField.empty(surroundings, scalp.area, int(outlines.strands.sum()))
-            flow = Flow(outlines, density, force_field(free, surroundings), styling.bending_stiffness, tau)
+            layers, force = Layers.over(scalp, surroundings), force_field(free, surroundings)
+            flow = Flow(outlines, density, layers, force, styling.bending_stiffness, tau)
             if not in_vain:
                 _let_down(flow, uv, tau)
             return flow, []

@@ -72,9 +72,14 @@ def _back(places: Floats, styling: StylingSettings) -> Floats:
     return _fade(-places[:, 2], 0.3, 1.1) * way / np.linalg.norm(way, axis=1, keepdims=True)
 
 
+_PRESSED = 0.6  # how steeply hair that is combed over the forehead is led to it
+
+
 def _forward(places: Floats, styling: StylingSettings) -> Floats:
-    # As a comb goes: over the top to the front, and down the forehead.
-    way = np.stack([0 * places[:, 0], -np.maximum(places[:, 2], 0.0), np.maximum(places[:, 1], 0.2)], axis=1)
+    # As a comb goes: over the top to the front, and down the forehead, pressed to it.
+    fall, rise = np.maximum(places[:, 2], 0.0), np.clip(places[:, 1], 0.2, None)
+    press = _PRESSED * np.minimum(fall, 1.0) * np.maximum(1.0 - rise, 0.0)
+    way = np.stack([0 * places[:, 0], -fall, rise - press], axis=1)
     before_ears = _fade(np.abs(places[:, 0]), 0.5, 1.0) * (1.0 - _fade(places[:, 1], -0.4, 0.0))
     return before_ears * way / np.linalg.norm(way, axis=1, keepdims=True)
 

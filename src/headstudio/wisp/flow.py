@@ -18,6 +18,7 @@ from .density import DensityField
 from .ears import at_ears
 from .field import ForceField
 from .joints import bend_toward, joint_stiffness, most_aligned, turn
+from .layers import Layers
 from .outlines import Outlines
 
 _BEND = math.radians(12)  # Delta theta of Algorithm 1
@@ -34,9 +35,6 @@ _WIDEN = 0.3
 
 # How far the middle of a wisp stays off the skin: a floor, and a part of its radius up to a bound [m].
 _CLEARANCE, _RADIUS_PART, _MOST_CLEARANCE = 0.0015, 0.3, 0.005
-# Hair lies on the hair that is rooted where it passes, the higher the farther it has come, and off the scalp on none: so
-# much higher at most [m], and at what distances from its own root [m] which part of it.
-_LAYERS, _OVER_ROOTS = 0.010, ((0.0, 0.03, 0.15, 0.28), (0.0, 0.4, 1.0, 0.0))
 
 
 @dataclass
@@ -55,13 +53,22 @@ class Flow:
     wisp has got, (W,). stiffness: kappa of eq. 5 for segments of this length.
     """
 
-    def __init__(self, outlines: Outlines, density: DensityField, force: ForceField, kappa: float, tau: float) -> None:
+    def __init__(
+        self,
+        outlines: Outlines,
+        density: DensityField,
+        layers: Layers,
+        force: ForceField,
+        kappa: float,
+        tau: float,
+    ) -> None:
         count, joints = outlines.frames.shape[:2]
         self.outlines = outlines
         self.laid = np.zeros(count, dtype=np.int64)
         self.tally = Tally()
         self.stiffness = joint_stiffness(kappa, outlines.segment)
         self._density = density
+        self._layers = layers
         self._force = force
         self._tau = tau
         self._widest: Floats = np.full(outlines.radii.shape, np.inf)
@@ -69,9 +76,9 @@ class Flow:
         # By joint and wisp, in one row: what the j-th joint of wisp w has is in place j W + w.
         self._radii = np.ascontiguousarray(outlines.radii.T).ravel()
         self._clearances = np.minimum(_CLEARANCE + _RADIUS_PART * self._radii, _MOST_CLEARANCE)
-        self._layers = _LAYERS * np.interp(outlines.segment * np.arange(joints + 1), *_OVER_ROOTS)
         self._across, self._along = np.empty((3, joints * count)), np.empty((3, joints * count))
         self._ends = np.empty((3, count))
+        self._way: Floats = np.zeros(count)  # over the scalp so far [m]
         # The frame of the next segment if nothing bent it, (3, W) each.
         self._next_across, self._next_along = np.empty((3, count)), np.empty((3, count))
         self._back_to_roots(np.arange(count))
@@ -79,7 +86,7 @@ class Flow:
     def copy(self) -> Flow:
         """The same hair, laid as far, to go on with on its own."""
         other = copy.copy(self)
-        for name in ("laid", "_widest", "_across", "_along", "_ends", "_next_across", "_next_along"):
+        for name in ("laid", "_way", "_widest", "_across", "_along", "_ends", "_next_across", "_next_along"):
             setattr(other, name, getattr(self, name).copy())
         other.tally = replace(self.tally)
         other._density = replace(self._density, hair=self._density.hair.copy())
@@ -108,6 +115,7 @@ class Flow:
 
     def _back_to_roots(self, wisps: Ints) -> None:
         self.laid[wisps] = 0
+        self._way[wisps] = 0.0
         self._widest[wisps] = np.inf
         self._ends[:, wisps] = self.outlines.roots[wisps].T
         self._next_across[:, wisps], self._next_along[:, wisps] = (
@@ -135,7 +143,9 @@ class Flow:
             across[:, rooted] = turn(across[:, rooted], straight[:, rooted], combed)
             straight[:, rooted] = combed
         # Where hair is pressed together so are its layers, and none are rooted on an ear.
-        layer = np.sqrt(np.minimum(self._tau / ceiling, 1.0)) * self._layers.take(joint + 1)
+        self._way[wisps] += self.outlines.segment * self._layers.passed(start.T)
+        layer = self._layers.heights(self._way[wisps], self.outlines.segment * (joint + 1))
+        layer *= np.sqrt(np.minimum(self._tau / ceiling, 1.0))
         lifted = at_ears(self._density.surroundings.proportions.measure(start.T)).nonzero()[0]
         layer[lifted] = 0.0
         clearance = self._clearances.take(place + len(self.laid)) + layer
