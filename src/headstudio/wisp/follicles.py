@@ -21,7 +21,7 @@ from .parting import Parting
 
 _LARGEST_TILE = 0.004  # edge [m]
 _LLOYD_STEPS = 4
-_MORE, _WHORL, _BESIDE_PARTING = 0.9, 0.016, 0.008  # so much more hair, within so far of whorl and parting [m]
+_MORE, _WHORL, _BESIDE_PARTING = 2.0, 0.025, 0.008  # so much more hair, within so far of whorl and parting [m]
 # Additive recurrence of Roberts (2018): its points fill a cube evenly, however many of them one takes.
 _PLASTIC = 1.2207440846057596
 _STRIDE = np.array([1 / _PLASTIC, 1 / _PLASTIC**2, 1 / _PLASTIC**3])
