@@ -21,7 +21,8 @@ from .parting import Parting
 
 _LARGEST_TILE = 0.004  # edge [m]
 _LLOYD_STEPS = 4
-_MORE, _WHORL, _BESIDE_PARTING = 2.0, 0.025, 0.008  # so much more hair, within so far of whorl and parting [m]
+# So much more hair around the whorl, and along a parting, and within how far [m].
+_AT_WHORL, _AT_PARTING = (0.9, 0.016), (2.0, 0.008)
 # Additive recurrence of Roberts (2018): its points fill a cube evenly, however many of them one takes.
 _PLASTIC = 1.2207440846057596
 _STRIDE = np.array([1 / _PLASTIC, 1 / _PLASTIC**2, 1 / _PLASTIC**3])
@@ -123,10 +124,14 @@ def fulness(scalp: Scalp, parting: Parting | None, places: Floats) -> Floats:
     Hair that leaves a line or a place to all sides lies there in one layer, and every root that is missing shows.
     """
     at_whorl = np.linalg.norm(places - scalp.points(scalp.whorl[None]), axis=1)
-    more = np.exp(-((at_whorl / _WHORL) ** 2))
+    more = _around(at_whorl, *_AT_WHORL)
     if parting is not None:
-        more = np.maximum(more, np.exp(-((parting.distance(places) / _BESIDE_PARTING) ** 2)))
-    return 1.0 + _MORE * more
+        more = np.maximum(more, _around(parting.distance(places), *_AT_PARTING))
+    return 1.0 + more
+
+
+def _around(distance: Floats, most: float, within: float) -> Floats:
+    return most * np.exp(-((distance / within) ** 2))
 
 
 def scatter_strands(regions: Regions, total: int, seed: int) -> tuple[Floats, Ints]:
