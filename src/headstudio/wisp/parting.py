@@ -27,7 +27,7 @@ _APART = 0.015
 # Hair that grows as far from the line as this is in no doubt about its side [m].
 _TURN = 0.02
 # The line itself is bare, and a comb draws hair from so far to its edge: half its breadth, and how far [m].
-_BARE, _DRAWN = 0.0005, 0.010
+_BARE, _DRAWN = 0.0007, 0.010
 # A line that ends this near to the border of the square goes on so far beyond it [m].
 _BORDER, _BEYOND = 0.03, 0.02
 
