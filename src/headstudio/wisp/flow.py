@@ -144,7 +144,7 @@ class Flow:
             straight[:, rooted] = combed
         # Where hair is pressed together so are its layers, and none are rooted on an ear.
         self._way[wisps] += self.outlines.segment * self._layers.passed(start.T)
-        layer = self._layers.heights(self._way[wisps], self.outlines.segment * (joint + 1))
+        layer = self._layers.heights(self._way[wisps], np.float64(self.outlines.segment) * (joint + 1))
         layer *= np.sqrt(np.minimum(self._tau / ceiling, 1.0))
         lifted = at_ears(self._density.surroundings.proportions.measure(start.T)).nonzero()[0]
         layer[lifted] = 0.0
