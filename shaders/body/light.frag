@@ -23,7 +23,8 @@ void main() {
     vec4 painted = texelFetch(paint, pixel, 0);
     vec2 at = gl_FragCoord.xy / size * 2.0 - 1.0;
     vec3 from_eye = forward + at.x * sideward + at.y * upward;
-    vec3 place = eye.xyz + from_eye * texelFetch(distances, pixel, 0).r;
+    float distance_ = texelFetch(distances, pixel, 0).r;
+    vec3 place = eye.xyz + from_eye * distance_;
     vec3 to_eye = -normalize(from_eye);
     vec3 n = normalize(surface.xyz);
     vec3 l = to_light.xyz;
@@ -51,8 +52,11 @@ void main() {
     float n_h = max(dot(n, h), 0.0), n_v = max(dot(n, to_eye), 0.0), front = max(n_l, 0.0);
     float fresnel = 0.028 + 0.972 * fifth(1.0 - max(dot(h, to_eye), 0.0));
     float rough = mix(0.48, 0.34, lips);
-    float shine = mix(lobe(n_h, front, n_v, rough), lobe(n_h, front, n_v, rough * 0.58), 0.28 + 0.2 * lips);
-    shine *= fresnel * front * lit * 2.2 * (1.0 - max(brow, cover));
+    float hidden_slope = slope_in_pixel(surface.xyz, distance_);
+    float wide = roughened(rough, hidden_slope), narrow = roughened(0.58 * rough, hidden_slope);
+    float shine = mix(lobe(n_h, front, n_v, wide), lobe(n_h, front, n_v, narrow), 0.28 + 0.2 * lips);
+    // The map of the shadows is too coarse for a crease: what hides most of the sky there hides the lamp, too.
+    shine *= fresnel * front * lit * 2.2 * (1.0 - max(brow, cover)) * mix(1.0, open, 0.92);
     float rim = 0.028 + 0.30 * fifth(1.0 - n_v);
     vec3 sheen = mix(ground.rgb, sky.rgb, clamp(reflect(-to_eye, n).y * 0.5 + 0.5, 0.0, 1.0)) * rim * open * open;
 

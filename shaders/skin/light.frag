@@ -43,7 +43,8 @@ void main() {
     vec4 painted = texelFetch(paint, pixel, 0);
     vec2 at = gl_FragCoord.xy / size * 2.0 - 1.0;
     vec3 from_eye = forward + at.x * sideward + at.y * upward;
-    vec3 place = eye.xyz + from_eye * texelFetch(distances, pixel, 0).r;
+    float distance_ = texelFetch(distances, pixel, 0).r;
+    vec3 place = eye.xyz + from_eye * distance_;
     vec3 to_eye = -normalize(from_eye);
     vec3 smooth_n = normalize(surface.xyz);
     vec3 l = to_light.xyz;
@@ -102,8 +103,8 @@ void main() {
         float fresnel = 0.028 + 0.972 * fifth(1.0 - max(dot(h, to_eye), 0.0));
         // Bumps too small for a pixel spread the highlight instead.
         float rough = mix(roughness, 0.72 * roughness, lips);
-        float wide = sqrt(sqrt(rough * rough * rough * rough + 2.0 * bumps.hidden_slope));
-        float narrow = sqrt(sqrt(0.125 * rough * rough * rough * rough + 2.0 * bumps.hidden_slope));
+        float hidden_slope = bumps.hidden_slope + slope_in_pixel(surface.xyz, distance_);
+        float wide = roughened(rough, hidden_slope), narrow = roughened(0.5946 * rough, hidden_slope);
         float shine = mix(lobe(n_h, front, n_v, wide), lobe(n_h, front, n_v, narrow), 0.3 + 0.2 * lips);
         mirrored = radiance.rgb * shine * fresnel * front * lit * 2.2 * glossy;
     } else {

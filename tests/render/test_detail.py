@@ -85,6 +85,41 @@ def test_sheets_that_touch_stay_two() -> None:
     assert len(igl.boundary_loop_all(left)) == 2
 
 
+def test_closed_lips_do_not_gape_from_afar() -> None:
+    """Both lose the same vertices where they meet: none, whatever the rest of either looks like."""
+    whole = ball(6)
+    upper = whole.vertices[whole.faces].mean(axis=1)[:, 1] > 0.0
+    count = len(whole.vertices)
+    meet = np.intersect1d(whole.faces[upper], whole.faces[~upper])
+    double = np.arange(count)
+    double[meet] = count + np.arange(len(meet))
+    # Only one of them bends: its clusters are smaller.
+    points = np.concatenate([whole.vertices, whole.vertices[meet]])
+    normals = np.concatenate([whole.vertex_normals, whole.vertex_normals[meet]])
+    normals[: len(whole.vertices)][whole.vertices[:, 1] > 0.0] = [0.0, 0.0, 1.0]
+    # A lining behind closes both, so that they have no border.
+    lips = np.concatenate([whole.faces[upper], double[whole.faces[~upper]]])
+    inner = points * 0.9
+    lining = np.concatenate([whole.faces[upper], double[whole.faces[~upper]]])[:, ::-1] + len(points)
+    border = igl.boundary_facets(lips)[0]
+    sewn = np.concatenate(
+        [
+            np.stack([border[:, 1], border[:, 0], border[:, 0] + len(points)], axis=1),
+            np.stack([border[:, 1], border[:, 0] + len(points), border[:, 1] + len(points)], axis=1),
+        ]
+    )
+    mouth = Surface(
+        np.concatenate([lips, lining, sewn]),
+        np.concatenate([points, inner]),
+        np.concatenate([normals, -normals]),
+        np.zeros((2 * len(points), 0)),
+    )
+    assert len(igl.boundary_facets(mouth.faces)[0]) == 0
+    faces = coarser(mouth, 0.004)
+    assert len(faces) < 0.4 * len(mouth.faces)
+    assert np.isin(np.concatenate([meet, double[meet]]), faces).all()
+
+
 def test_what_is_painted_keeps_its_edge() -> None:
     mesh = ball()
     height = mesh.vertices[:, 1]

@@ -1,10 +1,11 @@
 """A table of fits to strange scans: distances before and after, and how near anything could come.
 
-    hs py -m tests.wrinkle.fit_table 1001 1002 1003 [--keep FOLDER] [--head FILE]
+    hs py -m tests.wrinkle.fit_table 1001 1002 1003 [--keep FOLDER] [--head FILE] [--files FILE FILE]
 
 Scans are drawn from their number: heads, places, rims, crossings, close parallels. Those from 1 on were looked at while
 the fit was made; those from 201 on were not before the table was made that has them. From 1001 on heads of any age and
-sex are drawn, and places from the forehead to the neck; whether a line is followed by another is left to chance.
+sex are drawn, and places from the forehead to the neck; whether a line is followed by another is left to chance. From
+3001 on places are foreheads and eye corners, and a third of the heads is drawn from those of ``--files``.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -36,6 +37,18 @@ RIMS = (0.0, 0.3, 0.5, 1.0)
 
 # The first places are those of numbers below this.
 _WIDER, _FEWER_PLACES = 1001, ("forehead", "cheek", "face", "chin", "temple")
+# Numbers from here on are of the places that the thesis compares (figure 2.15).
+_AS_THESIS = 3001
+
+
+def drawn_as_thesis(number: int, files: Sequence[str]) -> tuple[HeadSettings, Strange]:
+    """The head and the recipe of a scan of a forehead or an eye corner by its number."""
+    rng = np.random.default_rng([number, _AS_THESIS])
+    head, recipe = drawn_wider(number)
+    place = "eye corner" if rng.random() < 0.5 else "forehead"
+    if files and rng.random() < 1 / 3:
+        head = HeadSettings(source=files[int(rng.integers(len(files)))])
+    return head, replace(recipe, place=place)
 
 
 def drawn_wider(number: int, file: str | None = None) -> tuple[HeadSettings, Strange]:
@@ -95,8 +108,18 @@ def drawn(number: int) -> tuple[HeadSettings, Strange]:
     return head, recipe
 
 
-def row(number: int, keep: Path | None, show: Callable[[str], object], file: str | None = None) -> None:
-    head_settings, recipe = drawn_wider(number, file) if number >= _WIDER else drawn(number)
+def row(
+    number: int,
+    keep: Path | None,
+    show: Callable[[str], object],
+    file: str | None = None,
+    files: Sequence[str] = (),
+) -> None:
+    """Fit the scan of this number and show its row. file: the head that is taken, files: those that it is drawn from."""
+    if number >= _AS_THESIS and file is None:
+        head_settings, recipe = drawn_as_thesis(number, files)
+    else:
+        head_settings, recipe = drawn_wider(number, file) if number >= _WIDER else drawn(number)
     document = replace(Document(), head=head_settings)
     builder = Builder()
     head = builder.head(document.head)
@@ -145,7 +168,8 @@ if __name__ == "__main__":
     parser.add_argument("numbers", type=int, nargs="+")
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--head", help="the head of this file, for numbers from 1001 on")
+    parser.add_argument("--files", nargs="+", default=[], help="heads to draw from beside the built-in ones, from 3001 on")
     chosen = parser.parse_args()
     for each in chosen.numbers:
-        row(each, chosen.keep, sys.stdout.write, chosen.head)
+        row(each, chosen.keep, sys.stdout.write, chosen.head, chosen.files)
         sys.stdout.flush()

@@ -74,8 +74,9 @@ def coarser(surface: Surface, pixel: float) -> Ints:
     length = np.sqrt(np.einsum("ij,ij->i", along, along)) + _SHORT
     edge = _mean(length, start, len(surface.points))
     size = _sizes(surface, start, end, length, edge, pixel)
-    # All of a border stays: an edge of the surface shows every corner that is cut off it.
-    border = np.unique(igl.boundary_facets(surface.faces)[0])
+    # All of a border stays: an edge of the surface shows every corner that is cut off it. So does all of where it touches
+    # itself: lips that are closed would gape where one loses another vertex than the other.
+    border = np.union1d(igl.boundary_facets(surface.faces)[0], _touching(surface.points))
     seeds = np.union1d(_seeds(surface.points, start, end, size), border)
     # Every vertex goes to the seed that is nearest along edges, as measured in clusters.
     count = len(size)
@@ -106,6 +107,12 @@ def _sizes(surface: Surface, start: Ints, end: Ints, length: Floats, edge: Float
     wanted = np.clip(np.minimum(wanted, _EDGES * edge), _LEAST * pixel, _MOST * pixel)
     steps: Floats = _LEAST * pixel * 2.0 ** (np.floor(_STEPS * np.log2(wanted / (_LEAST * pixel)) + 1e-9) / _STEPS)
     return steps
+
+
+def _touching(points: Floats) -> Ints:
+    """Vertices that lie exactly where another one does, (k,)."""
+    _, place, held = np.unique(points, axis=0, return_inverse=True, return_counts=True)
+    return np.flatnonzero(held[place.ravel()] > 1)
 
 
 def _most(values: Floats, start: Ints, end: Ints, count: int) -> Floats:
