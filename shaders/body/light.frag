@@ -3,6 +3,7 @@
 #include "common/scene.glsl"
 #include "common/shadow.glsl"
 #include "common/highlight.glsl"
+#include "common/cavity.glsl"
 uniform sampler2D normals;
 uniform sampler2D paint;
 uniform sampler2D distances;
@@ -44,9 +45,7 @@ void main() {
     vec3 diffuse = mix(wrapped * wrapped, vec3(max(n_l, 0.0)), 0.35) * soft_lit;
 
     float open = 1.0 - painted.x;
-    // Light bounces between nearby skin: cavities go red-brown before they go black.
-    vec3 open_tint = open * (1.0 + vec3(0.30, -0.05, -0.14) * (1.0 - open));
-    vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * open_tint;
+    vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * reaching(open, albedo);
 
     vec3 h = normalize(l + to_eye);
     float n_h = max(dot(n, h), 0.0), n_v = max(dot(n, to_eye), 0.0), front = max(n_l, 0.0);

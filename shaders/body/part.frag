@@ -2,6 +2,7 @@
 #include "common/scene.glsl"
 #include "common/pose.glsl"
 #include "common/shadow.glsl"
+#include "common/cavity.glsl"
 uniform int kind;          // 0 eye, 1 teeth, 2 tongue, 3 lashes and brows, 4 other
 uniform vec4 ball;         // centre and radius of an eye, head frame [m]
 uniform vec3 pupil;        // where the eye looks, head frame
@@ -18,6 +19,8 @@ out vec4 colour;
 const float iris_radius = 0.45;
 const float pupil_radius = 0.15;
 const float teeth_in_row = 14.0;
+// Of the inside of a mouth, over that of skin.
+const vec3 flesh = vec3(0.85, 0.36, 0.36);
 
 float noise(float x) {
     float i = floor(x), f = fract(x);
@@ -61,11 +64,11 @@ void main() {
         float tooth = teeth_in_row * (0.5 + 0.5 * sin(1.35 * (v_paint.y - 0.5)) / sin(0.675));
         float beside = abs(fract(tooth) - 0.5) * 2.0;
         albedo = vec3(0.70, 0.64, 0.54) * (1.0 - 0.5 * smoothstep(0.86, 1.0, beside));
-        albedo = mix(albedo, skin_colour * vec3(0.85, 0.38, 0.38), v_paint.z);
+        albedo = mix(albedo, skin_colour * flesh, v_paint.z);
         gloss = 120.0;
         strength = 0.5 * (1.0 - beside * beside);
     } else if (kind == 2) {
-        albedo = skin_colour * vec3(0.85, 0.35, 0.35);
+        albedo = skin_colour * flesh;
         gloss = 60.0;
         strength = 0.3;
     } else if (kind == 3) {
@@ -83,7 +86,7 @@ void main() {
     float n_l = clamp((dot(n, l) + 0.15) / 1.15, 0.0, 1.0);
     // The deeper in the mouth, the more of its light has been on red walls.
     bool in_mouth = kind == 1 || kind == 2;
-    vec3 reached = in_mouth ? pow(vec3(open), vec3(1.0, 1.5, 1.6)) : vec3(open);
+    vec3 reached = in_mouth ? reaching(open, skin_colour * flesh) : vec3(open);
     vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * reached;
     float shine = pow(max(dot(n, normalize(l + to_eye)), 0.0), gloss) * strength * lit * (in_mouth ? open : 1.0);
     // A wet eye mirrors the bright sky, more towards its rim.

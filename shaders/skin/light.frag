@@ -5,6 +5,7 @@
 #include "common/scene.glsl"
 #include "common/shadow.glsl"
 #include "common/highlight.glsl"
+#include "common/cavity.glsl"
 #include "common/lafortune.glsl"
 #include "common/relief.glsl"
 uniform sampler2D normals;
@@ -54,7 +55,8 @@ void main() {
     vec3 n = bumps.normal;
 
     float lips = painted.y, hair = painted.z;
-    float open = (1.0 - painted.x) * mix(1.0, bumps.open, min(creases, 1.0));
+    // Of the sky, of what fine bumps leave.
+    float wide_open = 1.0 - painted.x, fine_open = mix(1.0, bumps.open, min(creases, 1.0)), open = wide_open * fine_open;
     // Blood, in units of haemoglobin: where skin is thin there is more to be seen of it, and pressed skin keeps more.
     float pressed = SHOWS_VALUE == 1 ? 0.0 : 1.0 - 2.0 * bumps.value;
     float blood = 0.6 * flushed * (painted.w - blood_mean) + 1.15 * 0.85 * lips + blood_flow * pressed;
@@ -82,10 +84,8 @@ void main() {
     vec3 reached = seen * vec3(1.0, root, root * sqrt(sqrt(root)));
     vec3 diffuse = max(around + bumped, 0.0) * soft_lit * mix(1.0, open, 0.35) * reached;
 
-    // Light bounces between nearby skin: cavities go red-brown before they go black.
-    vec3 open_tint = open * (1.0 + vec3(0.30, -0.05, -0.14) * (1.0 - open));
     vec3 soft_n = normalize(mix(n, smooth_n, 0.5));
-    vec3 soft = mix(ground.rgb, sky.rgb, soft_n.y * 0.5 + 0.5) * open_tint;
+    vec3 soft = mix(ground.rgb, sky.rgb, soft_n.y * 0.5 + 0.5) * reaching(wide_open, albedo) * fine_open;
 
     if (SHOWS_VALUE == 1) {
         vec3 shown = textureLod(scale, vec2((bumps.value * 255.0 + 0.5) / 256.0, 0.5), 0.0).rgb;

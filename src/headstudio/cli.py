@@ -36,6 +36,9 @@ MotionOption = Annotated[
 ]
 SizeOption = Annotated[str, typer.Option("--size", help="Pixels: 512 or 640x480.")]
 ViewOption = Annotated[str | None, typer.Option("--view", help="front, three-quarter, side, left, right, back or top.")]
+SkinOption = Annotated[
+    str | None, typer.Option("--skin", metavar="NAME", help="Skin by its age: child, young, grown, aged or weathered.")
+]
 SeedOption = Annotated[int | None, typer.Option("--seed", help="Start of the random numbers.")]
 ParticlesOption = Annotated[int | None, typer.Option("--particles", help="How many particles carry the hair.")]
 
@@ -333,6 +336,7 @@ def wrinkle(
     ] = None,
     size: SizeOption = "512",
     view: ViewOption = None,
+    skin: SkinOption = None,
     head: HeadOption = None,
     set_: SetOption = None,
 ) -> None:
@@ -341,7 +345,7 @@ def wrinkle(
     from .commands.pictures import parse_size
     from .commands.wrinkle import with_face, wrinkle
 
-    document = open_document(project, set_ or (), head_source=head_source(head))
+    document = open_document(project, set_ or (), skin=skin, head_source=head_source(head))
     document = with_face(document, preset, expression or (), wrinkles)
     if compare is not None or fit:
         from .commands.compare_scan import compare_scan
@@ -370,6 +374,7 @@ def limb(
     out: Annotated[Path, typer.Option(help="The picture, a PNG.")] = Path("limb.png"),
     size: SizeOption = "512",
     view: ViewOption = None,
+    skin: SkinOption = None,
     set_: SetOption = None,
 ) -> None:
     """Show a hand, an arm or a foot with its wrinkles."""
@@ -379,7 +384,7 @@ def limb(
     from .params import assign
     from .wrinkle.hand_settings import HandSettings
 
-    document = choose_view(open_document(None, set_ or (), head_age=age), view)
+    document = choose_view(open_document(None, set_ or (), skin=skin, head_age=age), view)
     limb(document, which, assign(HandSettings(), {"pose": pose}), wrinkles, parse_size(size), out, near)
 
 

@@ -88,6 +88,17 @@ def test_every_format_gives_the_same_head(tmp_path, ending):
     assert is_coherent(head.skin.faces)
 
 
+def test_eyes_of_a_file_of_their_own_come_to_the_head(tmp_path):
+    skin = write(bare(human().skin), tmp_path / "skin.obj")
+    eyes = [part for part in human().parts if part.kind == "eye"]
+    both = write(joined([bare(part.mesh) for part in eyes]), tmp_path / "eyes.obj")
+    assert not any(part.kind == "eye" for part in load_head(skin).parts)
+    head = load_head(skin, eyes=both)
+    found = sorted((part.centre for part in head.parts if part.kind == "eye"), key=lambda centre: centre[0])
+    expected = sorted((part.centre for part in eyes), key=lambda centre: centre[0])
+    np.testing.assert_allclose(found[1] - found[0], expected[1] - expected[0], atol=5e-4)
+
+
 def test_texture_coordinates_survive(tmp_path):
     skin = human().skin
     apart = torn(bare(skin))

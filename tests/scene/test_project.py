@@ -255,13 +255,14 @@ def test_there_is_a_migrator_for_every_step():
     assert sorted(project.MIGRATORS) == list(range(1, project.SCHEMA))
 
 
-def test_a_head_that_moved_with_its_project_is_found(tmp_path):
+@pytest.mark.parametrize("part", ["source", "eyes"])
+def test_a_head_that_moved_with_its_project_is_found(tmp_path, part):
     path = tmp_path / "moved.headstudio"
-    save_project(assign(Document(), {"head.source": "/home/someone/heads/old.obj"}), path)
-    assert load_project(path).document.head.source == "/home/someone/heads/old.obj"
+    save_project(assign(Document(), {f"head.{part}": "/home/someone/heads/old.obj"}), path)
+    assert getattr(load_project(path).document.head, part) == "/home/someone/heads/old.obj"
     (tmp_path / "old.obj").write_text("v 0 0 0")
     read = load_project(path)
-    assert read.document.head.source == str(tmp_path / "old.obj")
+    assert getattr(read.document.head, part) == str(tmp_path / "old.obj")
     assert "lies beside the project" in read.warnings[0]
 
 

@@ -6,6 +6,9 @@ Scans are drawn from their number: heads, places, rims, crossings, close paralle
 the fit was made; those from 201 on were not before the table was made that has them. From 1001 on heads of any age and
 sex are drawn, and places from the forehead to the neck; whether a line is followed by another is left to chance. From
 3001 on places are foreheads and eye corners, and a third of the heads is drawn from those of ``--files``.
+
+"noise" is how far the scan is from itself without noise, "base" how far the skin is from the scan without its grooves: a
+scan rounds the triangles of a coarse head, which no furrow can make good.
 """
 
 from __future__ import annotations
@@ -126,6 +129,8 @@ def row(
     scan = strange_scan(head, recipe)
     clean = strange_scan(head, replace(recipe, noise=0.0))
     floor = compare(clean, scan).distances().mean
+    bare = strange_scan(head, replace(recipe, lines=0))
+    base = measure(document, bare, builder).rows["the whole overlap"][0].mean
     start = time.process_time()
     changed, laid, note = fitted(document, scan, builder)
     seconds = time.process_time() - start
@@ -146,7 +151,7 @@ def row(
     show(
         f"{number:4d} {_named(head_settings):18s} {recipe.place:10s} "
         f"{recipe.lines:2d} lines {kind:11s} rims {recipe.rims:.1f} | "
-        f"{figures[0]} (noise {1e3 * floor:.3f} {best:.0%}) | around {figures[1]} | "
+        f"{figures[0]} (noise {1e3 * floor:.3f} {best:.0%}, base {1e3 * base:.3f}) | around {figures[1]} | "
         f"{note.split()[0]} furrows | {seconds:.0f} s\n"
     )
     if keep is not None:
@@ -168,7 +173,9 @@ if __name__ == "__main__":
     parser.add_argument("numbers", type=int, nargs="+")
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--head", help="the head of this file, for numbers from 1001 on")
-    parser.add_argument("--files", nargs="+", default=[], help="heads to draw from beside the built-in ones, from 3001 on")
+    parser.add_argument(
+        "--files", nargs="+", default=[], help="heads to draw from beside the built-in ones, from 3001 on"
+    )
     chosen = parser.parse_args()
     for each in chosen.numbers:
         row(each, chosen.keep, sys.stdout.write, chosen.head, chosen.files)

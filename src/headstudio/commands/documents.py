@@ -15,15 +15,20 @@ from ..scene.builder import Builder
 from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
 from ..scene.project import Project, load_project, new_project
+from ..scene.skin_presets import with_skin
 from ..scene.styles import load_style
 from ..scene.views import seen_from
 from .reporting import warn, working
 
 
 def open_document(
-    project: Path | None, assignments: Sequence[str], preset: str | None = None, **chosen: Any
+    project: Path | None,
+    assignments: Sequence[str],
+    preset: str | None = None,
+    skin: str | None = None,
+    **chosen: Any,
 ) -> Document:
-    """The project, or a new document, with the hair of a style that ships and parameters replaced.
+    """The project, or a new document, with the hair of a style that ships, skin by its age and parameters replaced.
 
     ``chosen`` are options such as ``head_source="mannequin"`` (None: not given), named by the parameter's path with
     ``_`` for the dot after its part. ``assignments`` are words like "lcp.friction=2" and have the last word. Raises
@@ -38,6 +43,7 @@ def open_document(
     for warning in start.warnings:
         warn(warning)
     document = start.document if preset is None else load_style(preset).on(start.document)
+    document = document if skin is None else with_skin(document, skin)
     given = {name.replace("_", ".", 1): value for name, value in chosen.items() if value is not None}
     return assign(document, given | parse_assignments(list(assignments)))
 

@@ -26,12 +26,14 @@ _CANDIDATES = 3
 _FEWEST_FACES = 150
 
 
-def head_from_file(path: str | Path) -> Head:
+def head_from_file(path: str | Path, eyes: str | Path | None = None) -> Head:
     """The head in an OBJ, PLY, STL, OFF or GLB file; ``Head.notes`` says what was found and what was done.
 
-    Raises HeadError, one line for the user, when the file is not usable as a head.
+    eyes: another file in the same place, unit and axes, with eyes, teeth or lashes that the first has not. Raises
+    HeadError, one line for the user, when a file is not usable.
     """
-    mesh, repairs = repair(read_mesh(path))
+    soup = read_mesh(path)
+    mesh, repairs = repair(soup if eyes is None else soup.with_(read_mesh(eyes)))
     return head_from_mesh(mesh, repairs, Path(path))
 
 

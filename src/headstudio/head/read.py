@@ -25,6 +25,17 @@ class TriangleSoup:
     faces: Ints
     corner_uv: Floats | None
 
+    def with_(self, other: TriangleSoup) -> TriangleSoup:
+        """Both in one list, this one first."""
+        uvs = [
+            np.zeros((len(each.faces), 3, 2)) if each.corner_uv is None else each.corner_uv for each in (self, other)
+        ]
+        return TriangleSoup(
+            np.concatenate([self.vertices, other.vertices]),
+            np.concatenate([self.faces, other.faces + len(self.vertices)]),
+            None if self.corner_uv is None else np.concatenate(uvs),
+        )
+
 
 def read_mesh(path: str | Path) -> TriangleSoup:
     """All triangles of an OBJ, PLY, STL, OFF or GLB file, in one list.

@@ -72,8 +72,8 @@ class Builder:
         """Only the head. A file that was written again is read again."""
         return self._part(
             "head",
-            (settings, _last_written(settings.source)),
-            lambda: load_head(settings.source, age=settings.age, masculine=settings.masculine),
+            (settings, _last_written(settings.source), _last_written(settings.eyes)),
+            lambda: load_head(settings.source, eyes=settings.eyes, age=settings.age, masculine=settings.masculine),
         )
 
     def scalp(self, document: Document) -> Scalp:

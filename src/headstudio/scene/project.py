@@ -186,14 +186,16 @@ def _strangers(members: Mapping[str, bytes]) -> list[str]:
 
 
 def _find_head_beside(document: Document, path: Path) -> tuple[Document, list[str]]:
-    source = document.head.source
-    # A path of another system may hold backslashes.
-    name = source.replace("\\", "/").rpartition("/")[2]
-    beside = path.parent / name
-    if name == source or os.path.exists(source) or not os.path.isfile(beside):
-        return document, []
-    found = assign(document, {"head.source": str(beside)})
-    return found, [f"{source} is not there; taking {beside}, which lies beside the project"]
+    warnings = []
+    for parameter in ("head.source", "head.eyes"):
+        file = str(_value_at(document, parameter))
+        # A path of another system may hold backslashes.
+        name = file.replace("\\", "/").rpartition("/")[2]
+        beside = path.parent / name
+        if name != file and not os.path.exists(file) and os.path.isfile(beside):
+            document = assign(document, {parameter: str(beside)})
+            warnings.append(f"{file} is not there; taking {beside}, which lies beside the project")
+    return document, warnings
 
 
 def _value_at(document: Any, path: str) -> Any:

@@ -21,6 +21,7 @@ class HeadSettings:
     """Which head."""
 
     source: str = text("makehuman", "Head", "makehuman, mannequin, or the path of a mesh (OBJ, PLY, STL, OFF, GLB).")
+    eyes: str = text("", "Eyes", "The path of a mesh with eyes, teeth or lashes for a head from a file that has none.")
     age: float = number(0.2, "Age", "", 0.0, 1.0, "MakeHuman's age: 0 young, 1 old.")
     masculine: float = number(0.0, "Masculine", "", 0.0, 1.0, "MakeHuman's sex: 0 female, 1 male.")
 

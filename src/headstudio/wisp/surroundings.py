@@ -51,7 +51,7 @@ class Surroundings:
         grid = Grid.over(body.bounds[0] - _MARGIN, body.bounds[1] + _MARGIN, _VOXEL)
         distances = _signed_distances(body, grid)
         proportions = Proportions.of(head.landmarks)
-        _close_face(distances.reshape(grid.shape), grid, proportions)
+        _close_face(distances.reshape(grid.shape), grid, proportions, body)
         low, high = head.skin.bounds[0] - _REACH, head.skin.bounds[1] + _REACH
         return cls(grid, distances.astype(np.float32), proportions, low, high)
 
@@ -152,10 +152,12 @@ def _signed_distances(body: TriangleMesh, grid: Grid) -> Floats:
     return distances
 
 
-def _close_face(distances: Floats, grid: Grid, proportions: Proportions) -> None:
+def _close_face(distances: Floats, grid: Grid, proportions: Proportions, body: TriangleMesh) -> None:
     """Close what a ball does not get into on the face, in place: sockets, lids, nostrils and lips are no place for hair.
 
-    As ``hair_tight_surface`` does for simulated hair, but not around the ears: behind them hair is rooted.
+    As ``hair_tight_surface`` does for simulated hair, but not around the ears: behind them hair is rooted. Distances are
+    measured as far as the ball reaches: to a voxel they would depend on the random points that stand for the skin, and
+    whether a node between mouth and jaw is closed on those of the whole body.
     """
     low, high = proportions.place(np.array([[-0.85, -1.9, 0.35], [0.85, 0.55, 1.5]]))
     start = np.maximum(np.floor((low - grid.origin) / grid.spacing).astype(int), 0)
@@ -165,8 +167,12 @@ def _close_face(distances: Floats, grid: Grid, proportions: Proportions) -> None
     rim = np.minimum(start, math.ceil(2 * _FOLD / grid.spacing))
     wide = tuple(slice(a - r, b + math.ceil(2 * _FOLD / grid.spacing)) for a, b, r in zip(start, end, rim))
     inner = tuple(slice(r, r + n) for r, n in zip(rim, distances[face].shape))
+    around = distances[wide]
+    reached = (np.abs(around) > _BAND * grid.spacing) & (np.abs(around) < _FOLD + grid.spacing)
+    nodes = grid.nodes.reshape(*grid.shape, 3)[wide][reached]
+    around[reached] = np.copysign(Locator(body.vertices, body.faces).nearest(nodes)[1], around[reached])
     # Half a voxel less, so that an open and even surface stays where it is.
-    closed = _FOLD - (ndimage.distance_transform_edt(distances[wide] <= _FOLD) - 0.5)[inner] * grid.spacing
+    closed = _FOLD - (ndimage.distance_transform_edt(around <= _FOLD) - 0.5)[inner] * grid.spacing
     folds = (distances[face] <= _FOLD) & (closed < distances[face] - grid.spacing)
     distances[face][folds] = closed[folds]
 

@@ -1,0 +1,5 @@
+// Light in a place that sees a part of the sky, ``open``: what hides the rest sends light on, of which a part ``walls`` stays
+// each time, as in an integrating sphere. So cavities of skin go red-brown before they go black.
+vec3 reaching(float open, vec3 walls) {
+    return open / (1.0 - walls * (1.0 - open));
+}
