@@ -120,6 +120,27 @@ def test_closed_lips_do_not_gape_from_afar() -> None:
     assert np.isin(np.concatenate([meet, double[meet]]), faces).all()
 
 
+def test_the_floor_of_a_furrow_goes_on_from_end_to_end() -> None:
+    """A wavy line over a sheet: what is left of it is joined by edges and leaves it nowhere."""
+    x, y = np.meshgrid(np.linspace(0.0, 0.1, 201), np.linspace(-0.02, 0.02, 81), indexing="ij")
+    wave = 0.003 * np.sin(60.0 * x)
+    points = np.stack([x, y + wave, np.zeros_like(x)], axis=2).reshape(-1, 3)
+    corner = (np.arange(200)[:, None] * 81 + np.arange(80)).reshape(-1, 1)
+    faces = np.concatenate([corner + [0, 81, 1], corner + [81, 82, 1]])
+    normals = np.tile([0.0, 0.0, 1.0], (len(points), 1))
+    line = np.flatnonzero(np.abs(y.ravel()) < 1e-9)
+    for lines, joined in ((line, True), (line[:0], False)):
+        left = coarser(Surface(faces, points, normals, np.zeros((len(points), 0)), lines), 0.0008)
+        assert len(left) < 0.5 * len(faces)
+        edges = left[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+        edges = edges[np.isin(edges, line).all(axis=1)]
+        ahead = np.unique(np.sort(points[edges, 0], axis=1), axis=0)
+        reach = 0.0
+        for low, high in ahead:
+            reach = high if low <= reach + 1e-9 else reach
+        assert (reach > 0.099) == joined
+
+
 def test_what_is_painted_keeps_its_edge() -> None:
     mesh = ball()
     height = mesh.vertices[:, 1]

@@ -13,7 +13,8 @@ from .repair import face_components, without_loose_vertices
 
 # All lengths in heights of the head, crown to chin (some 21 cm), all areas in squares of it.
 _CRUMB = 2e-5
-_EYE_RADII = (0.035, 0.10)
+# Drawn figures have larger eyes than people.
+_EYE_RADII = (0.035, 0.14)
 _EYE_ROUNDNESS = 0.06
 _EYE_SPREAD = (0.06, 0.28)
 _EYE_LEVELS = (0.38, 0.65)

@@ -8,10 +8,11 @@ crack.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import igl
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components, dijkstra
 
@@ -43,12 +44,14 @@ _SHADOW_PIXEL = 0.004
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """What is drawn: faces, (m, 3); points [m] and unit normals, (n, 3); what is painted on it, 0 to 1, (n, d)."""
+    """What is drawn: faces, (m, 3); points [m] and unit normals, (n, 3); what is painted on it, 0 to 1, (n, d); vertices on
+    lines that are seen, such as the floors of furrows, (k,): where a line runs, the others give way to them."""
 
     faces: Ints
     points: Floats
     normals: Floats
     painted: Floats
+    lines: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
 def level_of(pixel: float) -> int:
@@ -77,17 +80,21 @@ def coarser(surface: Surface, pixel: float) -> Ints:
     # All of a border stays: an edge of the surface shows every corner that is cut off it. So does all of where it touches
     # itself: lips that are closed would gape where one loses another vertex than the other.
     border = np.union1d(igl.boundary_facets(surface.faces)[0], _touching(surface.points))
-    seeds = np.union1d(_seeds(surface.points, start, end, size), border)
+    off_line = np.ones(len(size), dtype=bool)
+    off_line[surface.lines] = False
+    seeds = np.union1d(_seeds(surface.points, start, end, size, off_line), border)
     # Every vertex goes to the seed that is nearest along edges, as measured in clusters.
     count = len(size)
     step = 2 * length / (size[start] + size[end])
-    steps = sparse.csr_array((step, (start, end)), shape=(count, count))
+    # What is on a line goes to a seed on it: so what is left of a line is joined from end to end.
+    open_ = off_line[end] | ~off_line[start]
+    steps = sparse.csr_array((step[open_], (start[open_], end[open_])), shape=(count, count))
     away, _, nearest = dijkstra(steps, indices=seeds, min_only=True, return_predecessors=True)
-    # A cube that the surface only grazes has a seed beside that of its neighbour. Of the two, what lies where triangles are
-    # smallest stays: on the floor of a furrow.
+    # A cube that the surface only grazes has a seed beside that of its neighbour. Of the two, what lies on a line stays, and
+    # then what lies where triangles are smallest.
     close = (away[start] + step + away[end] < _APART) & (nearest[start] != nearest[end])
     rank = np.empty(count, np.int64)
-    rank[np.argsort(edge, kind="stable")] = np.arange(count)
+    rank[np.lexsort((edge, off_line))] = np.arange(count)
     rank[border] = -1
     seeds = _apart(seeds, nearest[start[close]], nearest[end[close]], rank)
     _, _, nearest = dijkstra(steps, indices=seeds, min_only=True, return_predecessors=True)
@@ -148,8 +155,9 @@ def _apart(seeds: Ints, first: Ints, second: Ints, rank: Ints) -> Ints:
     return np.flatnonzero(stays)
 
 
-def _seeds(points: Floats, start: Ints, end: Ints, size: Floats) -> Ints:
-    """One vertex for the vertices that share a cube of their size and are joined by edges within it, (k,)."""
+def _seeds(points: Floats, start: Ints, end: Ints, size: Floats, off_line: NDArray[np.bool_]) -> Ints:
+    """One vertex for the vertices that share a cube of their size and are joined by edges within it, (k,): the one next to
+    their middle, of those on a line if there are any."""
     cells = np.floor((points - points.min(axis=0)) / size[:, None]).astype(np.int64)
     key = np.unique(size, return_inverse=True)[1]
     for axis in cells.T:
@@ -160,7 +168,7 @@ def _seeds(points: Floats, start: Ints, end: Ints, size: Floats) -> Ints:
     held = np.bincount(cluster)
     middle = np.stack([np.bincount(cluster, axis) / held for axis in points.T], axis=1)
     off = np.einsum("ij,ij->i", points - middle[cluster], points - middle[cluster])
-    order = np.lexsort((off, cluster))
+    order = np.lexsort((off, off_line, cluster))
     return order[np.searchsorted(cluster[order], np.arange(count))]
 
 

@@ -100,7 +100,7 @@ def shape_of(surface: SkinSurface, head: HeadShape) -> SkinShape:
     painted = surface.spread(head.painted)
     faces = neighbours_together(surface.faces, surface.rest)
     return SkinShape(
-        surface=Surface(faces, surface.rest, unit(surface.spread(head.normals)), painted),
+        surface=Surface(faces, surface.rest, unit(surface.spread(head.normals)), painted, surface.bed.on_lines),
         shadow_faces=head.shadow_faces,
         uv=surface.uv,
         mapped=surface.spread(head.mapped),

@@ -65,6 +65,11 @@ class FurrowBed:
     stages: tuple[BedStage, ...]
 
     @property
+    def on_lines(self) -> Ints:
+        """Vertices on the lines of furrows, (k,)."""
+        return np.flatnonzero(self.stages[-1].fixed)
+
+    @property
     def settled(self) -> bool:
         """Whether it is the same as if these furrows had been all that there ever were."""
         return self.laying == tuple(_line(laid.furrow) for laid in self.furrows)
