@@ -126,7 +126,7 @@ def test_the_floor_of_a_furrow_goes_on_from_end_to_end() -> None:
     wave = 0.003 * np.sin(60.0 * x)
     points = np.stack([x, y + wave, np.zeros_like(x)], axis=2).reshape(-1, 3)
     corner = (np.arange(200)[:, None] * 81 + np.arange(80)).reshape(-1, 1)
-    faces = np.concatenate([corner + [0, 81, 1], corner + [81, 82, 1]])
+    faces = np.concatenate([corner + np.array(triangle) for triangle in ([0, 81, 1], [81, 82, 1])])
     normals = np.tile([0.0, 0.0, 1.0], (len(points), 1))
     line = np.flatnonzero(np.abs(y.ravel()) < 1e-9)
     for lines, joined in ((line, True), (line[:0], False)):

@@ -127,6 +127,7 @@ def limb_shape_of(skin: LimbSkin, hidden: Floats) -> SkinShape:
             skin.opened.vertices,
             limb.vertex_normals[source],
             painted[source],
+            skin.lines,
         ),
         shadow_faces=casting_shadows(skin.opened),
         uv=skin.uv,

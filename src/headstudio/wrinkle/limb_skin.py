@@ -31,7 +31,7 @@ class LimbSkin:
 
     limb: at rest, n vertices. opened: the same, cut open along its texture coordinates, k vertices; source: which of the
     limb's vertex each of them is, (k,). mapped: those of them that are on the map, (j,), in the order of ``fine``'s.
-    uv: texture coordinates, zero off the map, (k, 2).
+    uv: texture coordinates, zero off the map, (k, 2). lines: which of the opened skin's vertices are on lines of furrows.
     """
 
     limb: TriangleMesh
@@ -41,6 +41,7 @@ class LimbSkin:
     uv: Floats
     fine: FineWrinkles | None
     tissue: TissueLift
+    lines: Ints
 
     def at(self, posed: Floats) -> PosedLimb:
         """The skin of the limb whose vertices are at ``posed`` [m], (n, 3)."""
@@ -69,13 +70,19 @@ class PosedLimb:
 
 
 def grow_limb_skin(
-    limb: TriangleMesh, settings: FineSettings, along: Floats, bare: Floats | None = None, *, known_good: bool = False
+    limb: TriangleMesh,
+    settings: FineSettings,
+    along: Floats,
+    bare: Floats | None = None,
+    *,
+    known_good: bool = False,
+    on_lines: Ints | None = None,
 ) -> LimbSkin:
     """The skin of ``limb`` at rest, with fine wrinkles on the largest piece of its map.
 
     along, bare: directions of the limb and out of its palm or sole, (3,), see ``limb_guides``. known_good: its map is a
-    finer one of a map that is one to one. Raises ValueError for a mesh
-    without texture coordinates, TextureMapError for some that are not one to one.
+    finer one of a map that is one to one. on_lines: its vertices on lines of furrows. Raises ValueError for a mesh without
+    texture coordinates, TextureMapError for some that are not one to one.
     """
     opened = split_at_seams(limb)
     piece = face_components(opened.mesh.faces)
@@ -85,7 +92,8 @@ def grow_limb_skin(
     fine = grow_fine_wrinkles(texture_map, settings, limb_guides(texture_map, along, bare)) if settings.on else None
     uv = np.zeros((len(opened.vertices), 2))
     uv[part.vertices] = texture_map.uv
-    return LimbSkin(limb, opened.mesh, opened.vertices, part.vertices, uv, fine, TissueLift(limb, spread=0.0))
+    lines = np.flatnonzero(np.isin(opened.vertices, [] if on_lines is None else on_lines))
+    return LimbSkin(limb, opened.mesh, opened.vertices, part.vertices, uv, fine, TissueLift(limb, spread=0.0), lines)
 
 
 def filling_the_square(mesh: TriangleMesh, *, known_good: bool = False) -> TextureMap:

@@ -59,7 +59,7 @@ class WrinkledLimb:
         refined = bed.refined
         assert limb.corner_uv is not None  # split_at_seams has looked
         rest = TriangleMesh(refined.vertices, refined.faces, _refined_corners(refined, limb.corner_uv))
-        self.skin = grow_limb_skin(rest, fine, along, bare, known_good=True)
+        self.skin = grow_limb_skin(rest, fine, along, bare, known_good=True, on_lines=bed.on_lines)
 
     def at(self, posed: Floats) -> PosedLimb:
         """The wrinkled skin of the limb whose own vertices are at ``posed`` [m], (n, 3)."""
