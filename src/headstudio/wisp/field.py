@@ -149,7 +149,8 @@ def _inward(places: Floats, styling: StylingSettings) -> Floats:
 # Where the ridge of the shoulders runs, in half depths of the head behind its middle; within a part of this hair does not
 # know yet which way to go.
 _RIDGE, _RIDGE_BREADTH = -0.5, 0.12
-_BESIDE_NECK, _TOGETHER = (0.65, 1.0), 0.45  # half breadths of the head, and how strongly hair keeps together there
+_DECIDED = (0.15, 0.5)  # so far behind the ridge hair is pushed no more, in half depths: it would stand off the back
+_BESIDE_NECK, _TOGETHER = (1.0, 1.5), 0.45  # half breadths of the head, and how strongly hair keeps together there
 _ON_SHOULDERS = (0.005, 0.045)  # hair nearer to the skin than this lies on it, and hair farther off hangs free [m]
 
 
@@ -160,7 +161,8 @@ def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Fl
     distance, outward = surroundings.distance_and_gradient(grid.nodes)
     lying = _fade(distance.astype(np.float64), *_ON_SHOULDERS) * _fade(places[:, 1], -1.5, -1.1)
     upward = np.clip(outward[:, 1], 0.0, 1.0)
-    side = np.tanh((places[:, 2] - _RIDGE) / _RIDGE_BREADTH)
+    beside_ridge = places[:, 2] - _RIDGE
+    side = np.tanh(beside_ridge / _RIDGE_BREADTH) * _fade(-beside_ridge, *_DECIDED)[:, 0]
     # What gravity leaves along the slope from side to side, and a push across the ridge.
     across = lying * upward[:, None] * np.stack([-outward[:, 0], 0 * side, side], axis=1)
     # Down the back hair keeps together: what lies beside the neck's breadth is drawn to the rest.
