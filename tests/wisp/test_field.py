@@ -106,12 +106,25 @@ def test_hair_on_the_shoulders_is_led_off_them_before_and_behind():
     assert field_at([[0.0, -1.9, 3.0]], off_shoulders=1.0) == pytest.approx(field_at([[0.0, -1.9, 3.0]]))
 
 
-def test_hair_on_the_back_keeps_together():
+def test_hair_on_the_back_keeps_together_as_wide_as_the_head_and_is_not_pushed_off_the_back():
     _, _, surroundings = body()
-    behind = surroundings.proportions.place(np.array([[side, -2.2, -2.0] for side in (-1.2, 1.2)]))
+    sides = (-1.5, -0.9, 0.9, 1.5)
+    behind = surroundings.proportions.place(np.array([[side, -2.2, -2.0] for side in sides]))
     forward = np.linspace(0.0, 0.2, 400)[:, None] * np.array([0.0, 0.0, 1.0])
     onto = [(place + forward)[surroundings.distance(place + forward) < 0.004][0] for place in behind]
     places = surroundings.proportions.measure(np.array(onto))
-    drawn = (field_at(places, off_shoulders=1.0) - field_at(places))[:, 0]
-    assert drawn[0] > 0.3
-    assert drawn[1] < -0.3
+    change = field_at(places, off_shoulders=1.0) - field_at(places)
+    assert change[0, 0] > 0.3
+    assert change[3, 0] < -0.3
+    # Within the head's breadth there is nothing but what keeps hair from sliding outward.
+    assert np.abs(change[1:3, 0]).max() < 0.2
+    assert np.abs(change[1:3, 2]).max() < 0.05
+
+
+def test_what_is_combed_forward_begins_at_the_whorl_and_is_pressed_to_the_brow():
+    behind, above, before = (
+        field_at([place], gravity=0.0, forward=1.0)[0] for place in ((0, 0.6, -0.9), (0, 1, 0), (0, 0.1, 1.1))
+    )
+    assert np.abs(behind).max() < 1e-6
+    assert above[2] > 0.9
+    assert before[1] < -0.8 and before[2] < 0.0

@@ -72,6 +72,7 @@ def _back(places: Floats, styling: StylingSettings) -> Floats:
     return _fade(-places[:, 2], 0.3, 1.1) * way / np.linalg.norm(way, axis=1, keepdims=True)
 
 
+_WHORL = (0.3, 0.7)  # where hair that is combed forward begins, in half depths behind the middle of the head
 _PRESSED = 0.6  # how steeply hair that is combed over the forehead is led to it
 
 
@@ -81,7 +82,9 @@ def _forward(places: Floats, styling: StylingSettings) -> Floats:
     press = _PRESSED * np.minimum(fall, 1.0) * np.maximum(1.0 - rise, 0.0)
     way = np.stack([0 * places[:, 0], -fall, rise - press], axis=1)
     before_ears = _fade(np.abs(places[:, 0]), 0.5, 1.0) * (1.0 - _fade(places[:, 1], -0.4, 0.0))
-    return before_ears * way / np.linalg.norm(way, axis=1, keepdims=True)
+    # What grows behind the whorl is combed back from it, or it would stand up there and fold over.
+    before_whorl = _fade(-places[:, 2], *_WHORL)
+    return before_ears * before_whorl * way / np.linalg.norm(way, axis=1, keepdims=True)
 
 
 def _left(places: Floats, styling: StylingSettings) -> Floats:
@@ -150,7 +153,7 @@ def _inward(places: Floats, styling: StylingSettings) -> Floats:
 # know yet which way to go.
 _RIDGE, _RIDGE_BREADTH = -0.5, 0.12
 _DECIDED = (0.15, 0.5)  # so far behind the ridge hair is pushed no more, in half depths: it would stand off the back
-_BESIDE_NECK, _TOGETHER = (1.0, 1.5), 0.45  # half breadths of the head, and how strongly hair keeps together there
+_BESIDE_HEAD, _TOGETHER = (1.0, 1.5), 0.45  # half breadths of the head, and how strongly hair keeps together there
 _ON_SHOULDERS = (0.005, 0.045)  # hair nearer to the skin than this lies on it, and hair farther off hangs free [m]
 
 
@@ -165,8 +168,8 @@ def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Fl
     side = np.tanh(beside_ridge / _RIDGE_BREADTH) * _fade(-beside_ridge, *_DECIDED)[:, 0]
     # What gravity leaves along the slope from side to side, and a push across the ridge.
     across = lying * upward[:, None] * np.stack([-outward[:, 0], 0 * side, side], axis=1)
-    # Down the back hair keeps together: what lies beside the neck's breadth is drawn to the rest.
-    astray = (1.0 - _fade(np.abs(places[:, 0]), *_BESIDE_NECK)) * _fade(places[:, 2], _RIDGE - 0.2, _RIDGE)
+    # Down the back hair keeps together: what lies beside the head's breadth is drawn to the rest.
+    astray = (1.0 - _fade(np.abs(places[:, 0]), *_BESIDE_HEAD)) * _fade(places[:, 2], _RIDGE - 0.2, _RIDGE)
     return across - _TOGETHER * lying * astray * np.stack([np.sign(places[:, 0]), 0 * side, 0 * side], axis=1)
 
 
