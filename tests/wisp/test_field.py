@@ -127,4 +127,5 @@ def test_what_is_combed_forward_begins_at_the_whorl_and_is_pressed_to_the_brow()
     )
     assert np.abs(behind).max() < 1e-6
     assert above[2] > 0.9
-    assert before[1] < -0.8 and before[2] < 0.0
+    assert before[1] < -0.8
+    assert before[2] < 0.0
