@@ -9,17 +9,19 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
-from ..head.rows import row_dot
 from .bending import Bending
 from .body import Body
-from .contact import Tethers, Touching, put_back, stop_at_body, stop_at_reach, touching
+from .contact import Touching, pressed, touching
 from .direction import updated_directions
+from .hold import Hold
 from .interactions import hair_hair_forces
+from .limits import Tethers, put_back
 from .model import HairModel, HairState
 from .neighbours import NeighbourList
 from .parting import Parting
 from .settings import DynamicsSettings
 from .springs import LinkState, Springs
+from .strand import Strands
 from .timing import Timer
 
 
@@ -49,6 +51,7 @@ class Dynamics:
         self.model = model
         self.body = body
         self.springs = Springs(model)
+        self.strands = Strands(model)
         self.bending = Bending(model)
         self.tethers = Tethers(model)
         self.timer = Timer()
@@ -99,30 +102,32 @@ class Dynamics:
         with self.timer.stage("springs"):
             return self.springs.at(positions, settings.elastic_modulus)
 
-    def hold(
-        self, start: Floats, velocities: Floats, touch: Touching, distance: Floats, now: Circumstances, dt: float
-    ) -> tuple[Floats, Floats]:
-        """Velocities [m/s] after hands, body and reach have had their say, (n, 3), and what the body did along its normal.
+    def holds(
+        self, positions: Floats, velocities: Floats, touch: Touching, distance: Floats, settings: DynamicsSettings
+    ) -> tuple[Hold, Hold]:
+        """The strands that are taut, and hair pressed on the body.
 
-        A step leads from ``start`` [m], (n, 3), at ``distance`` from the body [m], (n,), over dt [s]. The latter: [m/s],
-        (n,).
+        positions [m], velocities [m/s]: (n, 3). distance: from the planes of ``touch`` [m], (n,).
+        """
+        with self.timer.stage("springs"):
+            taut = self.strands.taut(positions, velocities)
+        with self.timer.stage("contact"):
+            return taut, pressed(self.model, touch, distance, velocities, settings.body_friction)
+
+    def guided(self, start: Floats, velocities: Floats, now: Circumstances) -> Floats:
+        """Velocities [m/s] after hands have had their say, (n, 3), in a step from ``start`` [m], (n, 3)."""
+        return velocities if now.parting is None else now.parting.guided(start, velocities)
+
+    def put_back(
+        self, positions: Floats, velocities: Floats, seen_from: Floats, touch: Touching, now: Circumstances
+    ) -> tuple[Floats, Floats]:
+        """Positions [m] and velocities [m/s], (n, 3), with what is too deep or too far put back and stopped.
+
+        touch: the planes as they are seen from other positions, (n, 3).
         """
         with self.timer.stage("contact"):
-            if now.parting is not None:
-                velocities = now.parting.guided(start, velocities)
-            velocities, stopped = stop_at_body(velocities, touch, distance, now.settings.body_friction, dt)
-            velocities = stop_at_reach(self.model, start, velocities, touch, distance, dt)
-        velocities[self.model.fixed] = stopped[self.model.fixed] = 0.0
-        return velocities, stopped
-
-    def put_back(self, positions: Floats, touch: Touching, distance: Floats, now: Circumstances) -> Floats:
-        """Positions [m], (n, 3), at ``distance`` from their planes, with what is too deep or too far put back."""
-        with self.timer.stage("contact"):
-            if now.parting is None:
-                drawn = self.tethers.drawn_along(positions)
-                distance = distance + row_dot(drawn - positions, touch.normals)
-                positions = drawn
-            return put_back(self.model, positions, touch, distance)
+            drawn = self.tethers.drawn_along(positions) if now.parting is None else positions
+            return put_back(self.model, drawn, velocities, touch, touch.distance_after(drawn - seen_from))
 
     def turn(self, links: LinkState, directions: Floats) -> Floats:
         """Hair directions where ``links`` are (eq. 15), unit, (n, 3)."""

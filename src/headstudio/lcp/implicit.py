@@ -8,9 +8,9 @@ with forces felt at the part a of the way. It is solved by one Newton step from 
 
     (M (1 + g c + g^2 kappa) + g D + g^2 K) dv = M (v^ - v) + g / a f(x_a, v),
 
-K and D being the stiffness and damping of the springs, kappa that of bending, c air friction. The matrix is symmetric
+K and D being the stiffness and damping of springs and holds, kappa that of bending, c air friction. The matrix is symmetric
 and positive definite (compressed links count only along themselves), its pattern never changes, and conjugate gradients
-solve it, with hair that lies on the body held there (resting.py).
+solve it. Taut strands and the body hold single particles: they are in f, K and D as the springs are.
 """
 
 from __future__ import annotations
@@ -21,12 +21,10 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
-from ..head.rows import row_dot
 from .dynamics import Circumstances, Dynamics
 from .generalised_alpha import FORCE_AT, WEIGHT, gone_on, looking_back, on_the_way, way_begun
 from .inertia import apparent_acceleration
 from .model import HairState
-from .resting import Meeting, solve_at_body
 from .settings import DynamicsSettings
 from .spring_matrix import SpringMatrix
 
@@ -35,9 +33,8 @@ from .spring_matrix import SpringMatrix
 _FEWEST_PARTS, _MOST_PARTS = 2, 4
 _PART_LENGTH = 0.06  # [m]
 _PARTICLES_IN_TIME = 4000  # particles times parts that keep up with real time
-_STRAIGHTENED = 3.0  # times a kink: what a stop takes from the path behind
 # What is left of a solution goes on into the next ones: this is the dearest number of the solver, and pays for itself.
-_TOLERANCE = 5e-3
+_TOLERANCE = 1e-2
 
 
 class ImplicitSolver:
@@ -57,10 +54,14 @@ class ImplicitSolver:
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
 
-        Hair-hair interactions are the dear part and change slowly: they are found once, for the middle of the step.
-        Springs, inertia and contact go through the step in ``parts``.
+        Hair directions and hair-hair interactions change slowly: they are found once, for the middle of the step. Springs,
+        inertia and contact go through the step in ``parts``.
         """
-        outer = self.dynamics.outer_acceleration(self._halfway(state, dt), now, dt)
+        halfway = self._halfway(state, dt)
+        links = self.dynamics.links(halfway.positions, now.settings)
+        halfway = replace(halfway, directions=self.dynamics.turn(links, state.directions))
+        outer = self.dynamics.outer_acceleration(halfway, now, dt)
+        state = replace(state, directions=halfway.directions)
         self._stiffen(now.settings, dt / self.parts)
         frame = now.at(state.time)
         for _ in range(self.parts):
@@ -101,41 +102,36 @@ class ImplicitSolver:
         ahead = x_hat + g * v
         x_felt = on_the_way(x, ahead)
         links = dynamics.links(x_felt, settings)
-        directions = dynamics.turn(links, state.directions)
         load = dynamics.springs.load(links, settings)
-        force = mass * (outer + dynamics.bending_acceleration(settings, x_felt, v, directions))
+        force = mass * (outer + dynamics.bending_acceleration(settings, x_felt, v, state.directions))
         # Coriolis turns with the velocity and stays out of the matrix, which is symmetric: it takes the velocity to come,
         # or it would lag behind by a part.
         coming = FORCE_AT * gained
         apparent = (apparent_acceleration(at, x_felt + g * coming, v + coming, settings.gravity) for at in frames)
         force += mass * on_the_way(*apparent)
         force += dynamics.springs.forces(links, load, v)
+        # The planes that particles are heading for, as far away as they are when forces are felt.
+        touch = dynamics.touch(ahead, frames[1])
+        distance = touch.distance_after((FORCE_AT - 1.0) * (ahead - x - dt * touch.velocity))
+        holds = dynamics.holds(x_felt, v, touch, distance, settings)
+        for hold in holds:
+            force[hold.which] += hold.forces()
         right = mass * (v_hat - v) + g / FORCE_AT * (force - settings.air_friction * mass * v)
-        # The plane that a particle is heading for tells how far from it the step starts.
-        meeting = Meeting.ahead(dynamics.touch(ahead, frames[1]), v, g)
-        bounds = meeting.taut(model, ahead, v, g)
-        pressing = np.zeros(model.count) if state.before is None or state.pressing is None else state.pressing
         with dynamics.timer.stage("solve"):
             inertia = 1.0 + g * settings.air_friction + g * g * dynamics.bending.kappa(settings)
-            self._matrix.update(links, load, g, inertia * model.mass)
-            change, pressing = solve_at_body(
-                self._matrix, right, gained, bounds, model.fixed, pressing, settings.body_friction, g, self.tolerance
-            )
+            self._matrix.update(links, load, holds, g, inertia * model.mass)
+            change = self._matrix.solve(right, gained, self.tolerance)
 
         free = v + change
-        v_new, impulse = dynamics.hold(x_hat, free, meeting.touch, meeting.distance, now, g)
-        x_new = dynamics.put_back(x_hat + g * v_new, meeting.touch, meeting.distance_after(v_new - v, g), now)
-        # A stopped particle has a kink in its path. It looks back on one straightened by that much, or it would bounce.
-        kink = x_new - (x_hat + g * free)
-        held = pressing > 0
-        kink[held] = bounds.touch.normals[held]
-        x_behind, v_behind = looking_back(x_new, x, x_before), looking_back(v_new, v, v_before)
+        guided = dynamics.guided(x_hat, free, now)
+        x_free = x_hat + g * guided
+        x_new, v_new = dynamics.put_back(x_free, guided, ahead, touch, now)
+        # What hands and limits did is no part of the slopes.
         before = (
-            x_behind + _along(kink, x_new - dt * v_new - x_behind, _STRAIGHTENED),
-            v_behind + _along(kink, v_new - v_behind, _STRAIGHTENED / g),
+            looking_back(x_free, x, x_before) + (x_new - x_free),
+            looking_back(free, v, v_before) + (v_new - free),
         )
-        pressing = np.where(held & bounds.rubs, pressing, model.mass * impulse / g)
-        return HairState(x_new, v_new, directions, state.time + dt, before, pressing)
+        return HairState(x_new, v_new, state.directions, state.time + dt, before)
 
     def _earlier(
         self, state: HairState, now: Circumstances, frame: HeadFrame, outer: Floats, dt: float
@@ -143,19 +139,14 @@ class ImplicitSolver:
         """What the first part looks back to: positions and velocities a part of dt [s] before on a straight path."""
         dynamics, settings = self.dynamics, now.settings
         x, v = state.positions, state.velocities
-        touch = dynamics.touch(x, frame)
         links = dynamics.links(x, settings)
-        springs = dynamics.springs.forces(links, dynamics.springs.load(links, settings), v)
+        force = dynamics.springs.forces(links, dynamics.springs.load(links, settings), v)
+        touch = dynamics.touch(x, frame)
+        for hold in dynamics.holds(x, v, touch, touch.distance, settings):
+            force[hold.which] += hold.forces(dt / dynamics.model.mass[hold.which])
         acceleration = outer - settings.air_friction * v
         acceleration += apparent_acceleration(frame, x, v, settings.gravity)
         acceleration += dynamics.bending_acceleration(settings, x, v, state.directions, dt)
-        acceleration += springs / dynamics.model.mass[:, None]
-        held, _ = dynamics.hold(x, v + dt * acceleration, touch, touch.distance, now, dt)
-        return x - dt * v, 2.0 * v - held
-
-
-def _along(way: Floats, a: Floats, most: float) -> Floats:
-    """The part of ``a`` along ``way``, row by row, no longer than ``most`` times that way, (n, 3)."""
-    square = row_dot(way, way)
-    share = row_dot(way, a) / np.maximum(square, 1e-30)
-    return np.clip(share, -most, most)[:, None] * way
+        acceleration += force / dynamics.model.mass[:, None]
+        acceleration[dynamics.model.fixed] = 0.0
+        return x - dt * v, v - dt * acceleration

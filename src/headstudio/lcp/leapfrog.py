@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..head.rows import row_dot
+from .contact import square_frequency
 from .dynamics import Circumstances, Dynamics
 from .inertia import apparent_acceleration
 from .model import HairState
@@ -31,6 +31,8 @@ class LeapfrogSolver:
         stiffness = springs.at(model.rest_positions, settings.elastic_modulus).stiffness
         damping = springs.damping(stiffness, settings.spring_damping) + springs.friction(settings.inner_friction)
         square, rate = (2.0 * (springs.around @ each) / model.mass for each in (stiffness, damping))
+        own = self.dynamics.strands.square_frequency + square_frequency(model)
+        square, rate = square + own, rate + 2.0 * np.sqrt(own)
         limit = 4.0 / (rate + np.sqrt(rate * rate + 4.0 * square) + 1e-9)
         return _STEP_OF_LIMIT * float(np.min(limit, initial=_LONGEST_STEP))
 
@@ -51,8 +53,11 @@ class LeapfrogSolver:
         acceleration += dynamics.bending_acceleration(settings, x, v, state.directions, dt)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, dynamics.springs.load(links, settings), v) / mass
+        for hold in dynamics.holds(x, v, touch, touch.distance, settings):
+            held = mass[hold.which]
+            acceleration[hold.which] += hold.forces(dt / held[:, 0]) / held
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
-        v, _ = dynamics.hold(x, v, touch, touch.distance, now, dt)
-        distance = touch.distance + dt * row_dot(v - touch.velocity, touch.normals)
-        x = dynamics.put_back(x + dt * v, touch, distance, now)
+        v[dynamics.model.fixed] = 0.0
+        v = dynamics.guided(x, v, now)
+        x, v = dynamics.put_back(x + dt * v, v, x, touch, now)
         return HairState(x, v, dynamics.turn(dynamics.links(x, settings), state.directions), state.time + dt)

@@ -63,7 +63,6 @@ class HairState:
 
     before: positions and velocities one step earlier on a straight path, for solvers that look back; None after a fresh
     start.
-    pressing: with what force the body holds hair that lies on it [N], (n,), with ``before``.
     """
 
     positions: Floats
@@ -71,7 +70,6 @@ class HairState:
     directions: Floats
     time: float = 0.0
     before: tuple[Floats, Floats] | None = None
-    pressing: Floats | None = None
 
     @classmethod
     def at_rest(cls, model: HairModel) -> HairState:

@@ -1,13 +1,14 @@
-"""The matrix of the implicit solver: the springs between the free particles, and its solution.
+"""The matrix of the implicit solver: the springs between the free particles and along their strands, and its solution.
 
 The pattern of the links never changes, so where each number goes is worked out once. A link adds the same symmetric
 3 x 3 block, six different numbers, to the diagonal at both of its ends and takes it from the two places that couple them.
 
-Particles that are held do not move along a direction of their own. The preconditioner sees to that: its block is what the
-inverted block tends to as that direction becomes infinitely stiff, so conjugate gradients never go there.
+What holds single particles only adds to their own blocks.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 import numpy as np
 from scipy import sparse
@@ -15,13 +16,13 @@ from scipy import sparse
 from ..head.mesh import Floats, Ints
 from ..head.rows import OnColumns, rows_at
 from .bending import StiffTurning
+from .hold import Hold
 from .model import HairModel
 from .springs import LinkState, Load, Springs
 
 _MOST_ITERATIONS = 60
 # The places of a symmetric 3 x 3 block, row by row, among its six numbers xx, xy, xz, yy, yz, zz.
 _SIX_OF_NINE = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
-_NINE_TO_SIX = np.array([0, 1, 2, 4, 5, 8])
 
 
 class SpringMatrix:
@@ -52,16 +53,12 @@ class SpringMatrix:
         numbered = sparse.csr_array((np.arange(len(source)), (entry_rows, entry_columns)), shape=(3 * count, 3 * count))
         numbered.sort_indices()
         self._source = source[numbered.data]
-        where = np.argsort(numbered.data)
-        self._where_diagonal = where[: 9 * count].reshape(count, 9)
         self._matrix = sparse.csr_array(
             (np.zeros(len(source)), numbered.indices.astype(np.int32), numbered.indptr.astype(np.int32)),
             shape=numbered.shape,
         )
         self._six = np.zeros((6, links + count))
         self._inverse = np.zeros((3, 3, count))
-        self._inverse_of_free = np.zeros((3, 3, count))
-        self._held = np.zeros(0, dtype=np.int64)
         self.stiffen(StiffTurning(sparse.csr_array((0, model.count)), np.zeros(0)), 0.0)
 
     def stiffen(self, bending: StiffTurning, g: float) -> None:
@@ -71,8 +68,8 @@ class SpringMatrix:
         self._turn = sparse.block_diag([turn] * 3, format="csr")
         self._turn_back = (self._turn.T @ sparse.diags_array(np.tile(rigidity, 3))).tocsr()
 
-    def update(self, links: LinkState, load: Load, g: float, inertia: Floats) -> None:
-        """Fill the matrix for the links at one instant. inertia: what stands on the diagonal besides them [kg], (n,)."""
+    def update(self, links: LinkState, load: Load, holds: Iterable[Hold], g: float, inertia: Floats) -> None:
+        """Fill the matrix for the links and holds at one instant. inertia: what else the diagonal has [kg], (n,)."""
         # A pulled link also resists turning; a pushed one would help it, and is left out to keep the matrix definite.
         turning = g * g * np.maximum(load.pull, 0.0) / np.maximum(links.length, 1e-9)
         along = g * g * load.stiffness + g * load.damping - turning
@@ -87,33 +84,15 @@ class SpringMatrix:
         of_links[5] = along * z * z + across
         of_diagonal[:] = (self._around @ of_links.T).T
         of_diagonal[[0, 3, 5]] += inertia[self._free]
+        for hold in holds:
+            _add(of_diagonal, self._place[hold.which], hold, g)
         of_links *= -1.0
         np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
-        _invert_symmetric(_stiffened(of_diagonal, self._bending_diagonal), self._inverse_of_free)
-        self._inverse[:] = self._inverse_of_free
-        self._held = np.zeros(0, dtype=np.int64)
+        block = of_diagonal.copy()
+        block[[0, 3, 5]] += self._bending_diagonal
+        _invert_symmetric(block, self._inverse)
 
-    def hold(self, held: Ints, normals: Floats, drag: Floats) -> None:
-        """Hold particles where they are along a unit normal, and drag at them across it. To be called after each update.
-
-        held: their indices, (k,), none of them a root particle. normals: (k, 3). drag: [kg], (k,).
-        """
-        diagonal, data, inverse = self._six[:, -len(self._free) :], self._matrix.data, self._inverse
-        # What the last call held is let go.
-        data[self._where_diagonal[self._held]] = diagonal[:, self._held].T[:, _SIX_OF_NINE]
-        inverse[:, :, self._held] = self._inverse_of_free[:, :, self._held]
-        self._held = place = self._place[held]
-        normal = np.ascontiguousarray(normals.T)
-        across = np.eye(3)[:, :, None] - normal[:, None] * normal[None, :]
-        dragged = diagonal[:, place] + (drag * across).reshape(9, -1)[_NINE_TO_SIX]
-        data[self._where_diagonal[place]] = dragged.T[:, _SIX_OF_NINE]
-        blocks = np.empty((3, 3, len(place)))
-        _invert_symmetric(_stiffened(dragged, self._bending_diagonal[place]), blocks)
-        stiff = _times(blocks, normal)
-        blocks -= stiff[:, None] * (stiff / (stiff * normal).sum(axis=0))[None, :]
-        inverse[:, :, place] = blocks
-
-    def solve(self, right: Floats, guess: Floats, tolerance: float) -> tuple[Floats, Floats]:
+    def solve(self, right: Floats, guess: Floats, tolerance: float) -> Floats:
         """Preconditioned conjugate gradients from ``guess``: the solution and what it leaves of ``right``, (n, 3) each.
 
         Both are zero at root particles. What is left at held particles along their normal is what holds them, with the
@@ -127,7 +106,7 @@ class SpringMatrix:
         rho = residual @ z
         if not np.isfinite(rho):
             # A force that is no number must not pass for one that is solved.
-            return np.full_like(right, np.nan), np.full_like(right, np.nan)
+            return np.full_like(right, np.nan)
         goal = tolerance**2 * (wanted @ _times(inverse, wanted))
         taken = 0
         while rho > goal and taken < _MOST_ITERATIONS:
@@ -140,7 +119,7 @@ class SpringMatrix:
             direction *= rho / last
             direction += z
             taken += 1
-        return self._at_all(solution), self._at_all(residual)
+        return self._at_all(solution)
 
     def _of(self, vectors: Floats) -> Floats:
         """The matrix times vectors, all x first, then all y, then all z."""
@@ -155,11 +134,13 @@ class SpringMatrix:
         return at_all
 
 
-def _stiffened(six: Floats, more: Floats) -> Floats:
-    """Symmetric 3 x 3 blocks, (6, n), with as much more on their diagonals, (n,)."""
-    out = six.copy()
-    out[[0, 3, 5]] += more
-    return out
+def _add(six: Floats, which: Ints, hold: Hold, g: float) -> None:
+    """Add what holds particles, ``which`` of the blocks (6, n), to them."""
+    x, y, z = hold.direction.T
+    across = hold.across(g)
+    six[:, which] += (hold.along(g) - across) * np.stack([x * x, x * y, x * z, y * y, y * z, z * z])
+    for diagonal in (0, 3, 5):
+        six[diagonal, which] += across
 
 
 def _times(blocks: Floats, vectors: Floats) -> Floats:

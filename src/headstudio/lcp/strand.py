@@ -1,0 +1,54 @@
+"""The strand that a particle stands for, from its root to the particle: it pulls once it is taut.
+
+Not in the paper. Its springs tie a particle to hair all around, which may slide along it, and nothing holds all of them to
+the length of the hair: what has once been torn off they let go for good. A strand of length s that reaches to a distance
+of (1 + e) s pulls its particle back with the force
+
+    m A e,     e > 0.
+
+It pulls from nothing on, so that long steps see it come. A hard stop, met at no certain instant, would leave an error in
+proportion to the step.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..head.mesh import Floats
+from ..head.rows import row_length, rows_at
+from .hold import Hold
+from .model import HairModel
+
+_SHORTEST = 0.1  # of the mean distance of particles: no strand is stiffer than one of this length
+_TAUTNESS = 3000.0  # A: stretched by a hundredth, a strand carries three times its weight [m/s^2]
+
+
+class Strands:
+    """The strands of one head of hair.
+
+    square_frequency: A / s, with which a particle swings on its own strand [1/s^2], (n,); nothing at root particles.
+    """
+
+    def __init__(self, model: HairModel) -> None:
+        self._root_points, self._length = model.root_points, np.where(model.fixed, np.inf, model.arc_length)
+        self.square_frequency = _TAUTNESS / np.maximum(self._length, _SHORTEST * model.spacing)
+        self._stiffness = model.mass * self.square_frequency
+        self._damping = 2.0 * model.mass * np.sqrt(self.square_frequency)  # critical
+
+    def taut(self, positions: Floats, velocities: Floats) -> Hold:
+        """Those that reach further than they are long. positions [m], velocities [m/s]: head frame, (n, 3)."""
+        from_root = positions - self._root_points
+        reach = row_length(from_root)
+        which = np.flatnonzero(reach > self._length)
+        length, stiffness = reach[which], self._stiffness[which]
+        pull = stiffness * (length - self._length[which])
+        return Hold(
+            which,
+            direction=rows_at(from_root, which) / length[:, None],
+            push=-pull,
+            slip=rows_at(velocities, which),
+            stiffness_along=stiffness,
+            stiffness_across=pull / length,
+            damping_along=self._damping[which],
+            damping_across=np.zeros(len(which)),
+        )
