@@ -51,7 +51,7 @@ def drawn_as_thesis(number: int, files: Sequence[str]) -> tuple[HeadSettings, St
     place = "eye corner" if rng.random() < 0.5 else "forehead"
     if files and rng.random() < 1 / 3:
         head = HeadSettings(source=files[int(rng.integers(len(files)))])
-    return head, replace(recipe, place=place)
+    return head, replace(recipe, place=place, through=True)
 
 
 def drawn_wider(number: int, file: str | None = None) -> tuple[HeadSettings, Strange]:

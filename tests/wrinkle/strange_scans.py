@@ -30,6 +30,10 @@ PLACES = {
 }
 
 
+# What is rounded is drawn out in so many rounds, and looked at so many times finer.
+_ROUNDS, _LEVELS = 8, 2
+
+
 @dataclass(frozen=True)
 class Strange:
     """What a scan is made of. Lengths in metres.
@@ -37,7 +41,8 @@ class Strange:
     rims: volume that the rims rise by over that of the valley. rim_at, rim_width: where they stand and how wide they are,
     in widths of the valley. wander: how far lines stray. spread: over how much of the patch's radius lines lie that do not
     cross. crossing: whether they have any direction. smooth: whether the
-    scan rounds the head's triangles or has them flat. added: whether crossing grooves add up or the deeper one counts.
+    scan rounds the head's triangles or has them flat. through: whether it keeps to the head's vertices where it rounds: else
+    a coarse head has another shape in its scan. added: whether crossing grooves add up or the deeper one counts.
     varying: how much depth changes along a line, 0 to 1. steepest: no valley is narrower than this part of its depth.
     """
 
@@ -55,6 +60,7 @@ class Strange:
     spread: float = 1.5
     crossing: bool = False
     smooth: bool = True
+    through: bool = False
     added: bool = True
     varying: float = 0.0
     steepest: float = 0.4
@@ -71,6 +77,8 @@ def strange_scan_with_lines(head: Head, recipe: Strange) -> tuple[TriangleMesh, 
     """The scan, and the lines of its grooves on the skin [m], (k, 3) each."""
     rng = np.random.default_rng(recipe.seed)
     centre, fine = _patch(head, recipe)
+    if recipe.smooth and recipe.through:
+        fine = _drawn_out(fine)
     while np.median(fine.face_areas) > 0.5 * recipe.spacing**2:
         fine = TriangleMesh(*(igl.loop if recipe.smooth else igl.upsample)(fine.vertices, fine.faces)[:2])
     normals = fine.vertex_normals
@@ -110,6 +118,15 @@ def profile(x: Floats, recipe: Strange) -> Floats:
     tall = recipe.rims / (2 * rim)
     rims = np.exp(-0.5 * ((np.abs(x) - recipe.rim_at) / rim) ** 2)
     return np.asarray(-np.exp(-0.5 * x**2) + tall * rims)
+
+
+def _drawn_out(mesh: TriangleMesh) -> TriangleMesh:
+    """The mesh whose rounded surface goes through the vertices of this one."""
+    wanted, vertices = mesh.vertices, mesh.vertices
+    for _ in range(_ROUNDS):
+        rounded = igl.loop(vertices, mesh.faces, _LEVELS)[0]
+        vertices = vertices + wanted - rounded[: len(wanted)]
+    return mesh.moved(vertices)
 
 
 def _patch(head: Head, recipe: Strange) -> tuple[Floats, TriangleMesh]:
