@@ -42,9 +42,9 @@ void main() {
 
     float n_l = dot(n, l);
     vec3 wrapped = clamp((vec3(n_l) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 diffuse = mix(wrapped * wrapped, vec3(max(n_l, 0.0)), 0.35) * soft_lit;
-
     float open = 1.0 - painted.x;
+    vec3 diffuse = (mix(wrapped * wrapped, vec3(max(n_l, 0.0)), 0.35) + sent_across(open, albedo, n_l)) * soft_lit;
+
     vec3 soft = mix(ground.rgb, sky.rgb, n.y * 0.5 + 0.5) * reaching(open, albedo);
 
     vec3 h = normalize(l + to_eye);

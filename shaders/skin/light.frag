@@ -83,6 +83,7 @@ void main() {
     float seen = smoothstep(0.0, 0.05, open), root = sqrt(seen);
     vec3 reached = seen * vec3(1.0, root, root * sqrt(sqrt(root)));
     vec3 diffuse = max(around + bumped, 0.0) * soft_lit * mix(1.0, open, 0.35) * reached;
+    diffuse += sent_across(wide_open, albedo, smooth_n_l) * soft_lit * fine_open;
 
     vec3 soft_n = normalize(mix(n, smooth_n, 0.5));
     vec3 soft = mix(ground.rgb, sky.rgb, soft_n.y * 0.5 + 0.5) * reaching(wide_open, albedo) * fine_open;

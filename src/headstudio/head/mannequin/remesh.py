@@ -16,6 +16,8 @@ from scipy.sparse import coo_array, csr_array
 from ..mesh import Floats, Ints
 from .fields import Field
 
+# What is compared is rounded: its last digits are the processor's.
+_DIGITS = 6
 _LONG, _SHORT = 4.0 / 3.0, 4.0 / 5.0
 Bools = np.ndarray
 
@@ -88,7 +90,7 @@ def _chords(planes: Bools, ends: Ints, border: Bools) -> Bools:
 
 def _relative_length(vertices: Floats, ends: Ints, surface: Surface) -> Floats:
     a, b = vertices[ends[:, 0]], vertices[ends[:, 1]]
-    return np.linalg.norm(a - b, axis=1) / surface.size((a + b) / 2.0)
+    return np.round(np.linalg.norm(a - b, axis=1) / surface.size((a + b) / 2.0), _DIGITS)
 
 
 def _split(vertices: Floats, faces: Ints, surface: Surface) -> tuple[Floats, Ints]:
@@ -184,7 +186,7 @@ def _flip(vertices: Floats, faces: Ints, surface: Surface) -> Ints:
     area = np.linalg.norm(np.cross(to_next[:, 0], to_last[:, 0]), axis=1)
     cotangent = np.einsum("ijk,ijk->ij", to_next, to_last) / np.maximum(area, 1e-12)[:, None]
     cotangent = cotangent.ravel()
-    excess = -(cotangent[edges.corners[:, 0]] + cotangent[edges.corners[:, 1]])
+    excess = -np.round(cotangent[edges.corners[:, 0]] + cotangent[edges.corners[:, 1]], _DIGITS)
     planes = surface.planes(vertices)
     excess[_chords(planes, edges.ends, edges.border)] = np.inf
     chosen = np.flatnonzero(_first_in_faces(np.where(edges.border | (excess < 1e-3), 0.0, excess), edges))

@@ -12,6 +12,9 @@ from .polygonise import polygonise
 from .remesh import Surface, remesh
 from .sculpture import sculpture
 
+# Processors differ in the last digits of a sum or a power, and what is split, merged or turned may hang on them. Millimetres
+# and directions are rounded so far, so that the mannequin is the same on all.
+_DIGITS = 6
 _MIRROR = np.array([-1.0, 1.0, 1.0])
 _CROWN = 146.0  # above this height the middle line is the upper side of the chart [mm]
 
@@ -38,7 +41,8 @@ def _onto_skin(points: Floats) -> tuple[Floats, Floats]:
     square = np.maximum(np.einsum("ij,ij->i", slope, slope), 0.05)
     points = points - np.clip((value / square)[:, None] * slope, -1.0, 1.0)
     points[:, 0] = np.where(planes[:, 0], 0.0, np.maximum(points[:, 0], 1e-3))
-    return points, slope / np.linalg.norm(slope, axis=1, keepdims=True)
+    normals = slope / np.linalg.norm(slope, axis=1, keepdims=True)
+    return np.round(points, _DIGITS), np.round(normals, _DIGITS)
 
 
 def charted(vertices: Floats, faces: Ints) -> Floats:
