@@ -2,6 +2,7 @@
 uniform sampler3D around_table;  // A times N over phi, sine of theta, coded absorption
 uniform sampler3D spread_table;  // the same for light from anywhere within a quarter turn
 uniform sampler2D albedo_table;  // forward and back over sine of theta, coded absorption
+uniform sampler2D bent_table;    // the same times cos(2 phi)
 uniform vec4 variances;
 uniform vec4 tilt_cos;
 uniform vec4 tilt_sin;
@@ -53,4 +54,13 @@ mat4x3 albedo(float sine, vec3 absorption) {
     return transpose(mat3x4(textureLod(albedo_table, vec2(abs(sine), texel_place(place.r, count)), 0.0),
                             textureLod(albedo_table, vec2(abs(sine), texel_place(place.g, count)), 0.0),
                             textureLod(albedo_table, vec2(abs(sine), texel_place(place.b, count)), 0.0)));
+}
+
+// What goes on forward and what comes back, times cos(2 phi).
+mat2x3 albedo_bent(float sine, vec3 absorption) {
+    int count = textureSize(bent_table, 0).y;
+    vec3 place = coded(absorption);
+    return transpose(mat3x2(textureLod(bent_table, vec2(abs(sine), texel_place(place.r, count)), 0.0).rg,
+                            textureLod(bent_table, vec2(abs(sine), texel_place(place.g, count)), 0.0).rg,
+                            textureLod(bent_table, vec2(abs(sine), texel_place(place.b, count)), 0.0).rg));
 }

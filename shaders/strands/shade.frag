@@ -84,10 +84,16 @@ void main() {
     float direct = exp(crossed_unseen(clear, radius_count, phi) - crossed_unseen(met, radius_count, phi));
     vec3 passed = passing(pile_in, crossed, behind), scattered = passed - exp(-crossed);
 
-    mat4x3 soft = soft_light(point.xyz);
-    mat3 slope = mat3(soft[1], soft[2], soft[3]);
-    vec3 level = soft[0] + slope * turned(-sin_out * along, -head_turn.xyz);
-    vec3 aside = slope * turned(to_eye - along * sin_out, -head_turn.xyz);
+    // Of the soft light what a strand turns to the eye comes from the cone that mirrors it. There, by the azimuth from the
+    // eye, it is level + aside cos(phi) + twice cos(2 phi).
+    SoftLight soft = soft_light(point.xyz);
+    mat2x3 sent_bent = albedo_bent(sin_out, absorption);
+    float sin_2 = sin_out * sin_out, cos_2 = 1.0 - sin_2;
+    vec3 hair = turned(along, -head_turn.xyz), eyeward = turned(to_eye - along * sin_out, -head_turn.xyz);
+    vec3 along_hair_bent = bend_along(soft, hair, hair);
+    vec3 level = soft.mean - sin_out * (soft.slope * hair) + (sin_2 - 0.5 * cos_2) * along_hair_bent;
+    vec3 aside = soft.slope * eyeward - 2.0 * sin_out * bend_along(soft, hair, eyeward);
+    vec3 twice = bend_along(soft, eyeward, eyeward) + 0.5 * cos_2 * along_hair_bent;
 
     // Of what strands behind a strand send back, it sends on what it sends forward.
     vec3 from_light, from_sky;
@@ -102,13 +108,22 @@ void main() {
         vec3 gain = unseen_gain(met_soft, pile_out.rate, radius_count);
         // No more comes from one half than twice the mean, which a slope goes beyond where all of it comes from there.
         vec3 most = 2.0 * max(level, 0.0);
-        from_sky = clamp(sent[0] * level + sent[2] * aside, vec3(0.0), sent[0] * most)
-            + gain * clamp(sent[1] * level + sent[3] * aside, vec3(0.0), sent[1] * most)
-            + gain * on(sent) * sent_back_by(pile_out, roundabout * behind) * max(level + 0.25 * pi * aside, 0.0);
+        vec3 from_behind = min(sent[0] * level + sent[2] * aside, sent[0] * most) + sent_bent[0] * twice;
+        vec3 from_before = min(sent[1] * level + sent[3] * aside, sent[1] * most) + sent_bent[1] * twice;
+        // Hair on either side sends back what comes from the other, again and again (Kubelka 1948).
+        vec3 eyeward_half = max(level + 0.25 * pi * aside + twice / 3.0, 0.0);
+        vec3 other_half = max(level - 0.25 * pi * aside + twice / 3.0, 0.0);
+        vec3 head_to_eye = turned(to_eye, -head_turn.xyz);
+        vec3 back_before = sent_back_by(pile_out, strands_towards(soft, head_to_eye));
+        vec3 back_behind = sent_back_by(pile_out, strands_towards(soft, -head_to_eye));
+        vec3 again = 1.0 / (1.0 - back_before * back_behind);
+        from_behind = max(from_behind, 0.0) + on(sent) * back_behind * again * (eyeward_half + back_before * other_half);
+        from_before = max(from_before, 0.0) + back(sent) * back_before * again * (other_half + back_behind * eyeward_half);
+        from_sky = from_behind + gain * from_before;
     } else {
         vec3 colour = exp(-sqrt(absorption) * colour_slope);
         from_light = direct * kajiya_kay(sin_in, sin_out, colour, 0.05) + scattered * kajiya_kay(sin_in, sin_out, colour, 0.0);
-        from_sky = colour * max(level + 0.25 * pi * aside, 0.0);
+        from_sky = colour * max(level + 0.25 * pi * aside + twice / 3.0, 0.0);
     }
     radiance_ = vec4(pi * radiance.rgb * lit * from_light + from_sky, 1.0);
 }

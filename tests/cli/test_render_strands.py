@@ -18,8 +18,8 @@ VIEW = {
     "hair_melanin": 0.75,
     "hair_redness": 0.5,
     "hair_roughness": 0.3,
-    "hair_radius_root": 0.001,
-    "hair_radius_tip": 0.0005,
+    "hair_radius_root": 0.0003,
+    "hair_radius_tip": 0.0002,
     "sun_direction": [0.5, 0.8, 0.6],
     "sun_strength": 2.5,
     "ambient": 0.25,
@@ -29,10 +29,10 @@ VIEW = {
 
 @pytest.fixture
 def files(tmp_path):
-    """Strands that hang before a ball, and the ball."""
-    x = np.linspace(-0.05, 0.05, 120)
-    y = np.linspace(0.12, -0.02, 8)
-    points = np.stack(np.broadcast_arrays(x[:, None], y[None], np.full((120, 8), 0.09)), axis=-1)
+    """Strands that hang before a ball, strewn as hair is and not in one plane, and the ball."""
+    rng = np.random.default_rng(1)
+    x, z = rng.uniform(-0.05, 0.05, (400, 1)), rng.uniform(0.085, 0.1, (400, 1))
+    points = np.stack(np.broadcast_arrays(x, np.linspace(0.12, -0.02, 8), z), axis=-1)
     np.save(tmp_path / "curtain.npy", points.astype(np.float32))
     trimesh.creation.icosphere(subdivisions=3, radius=0.07).export(tmp_path / "ball.obj")
     return tmp_path
@@ -51,15 +51,16 @@ def test_hair_hangs_before_the_ball(headstudio, files):
     assert picture.shape == (48, 48, 3)
     np.testing.assert_array_equal(picture[0, 0], 137)  # 0.25 in sRGB
     hair, skin = picture[18:24, 20:28].mean(), picture[33:36, 20:28].mean()
-    # A path tracer has it at 0.72.
-    assert 0.65 * skin < hair < 0.8 * skin
+    # Cycles has it at 0.646.
+    assert 0.58 * skin < hair < 0.71 * skin
     assert np.abs(drawn(headstudio, files, hair_melanin=0.1)[18:24, 20:28].mean() - hair) > 20
 
 
 def test_camera_light_and_size_are_obeyed(headstudio, files):
     usual = drawn(headstudio, files)
     assert drawn(headstudio, files, size=24).shape == (24, 24, 3)
-    assert drawn(headstudio, files, sun_strength=0)[30:36, 20:28].mean() < usual[30:36, 20:28].mean() - 3
+    # In Cycles the sun adds 4.9 there.
+    assert drawn(headstudio, files, sun_strength=0)[30:36, 20:28].mean() < usual[30:36, 20:28].mean() - 4
     np.testing.assert_array_equal(drawn(headstudio, files, ambient=0.5)[0, 0], 188)
     assert np.abs(drawn(headstudio, files, eye=[0.8, 0.1, 0.0]) - usual).mean() > 3
 

@@ -13,8 +13,8 @@ from headstudio.render.fibre import (
     colour_absorption,
     fibre_tables,
     longitudinal,
-    lost_in_strands,
     melanin_absorption,
+    pile,
     scattering,
     sent_on,
 )
@@ -83,8 +83,30 @@ def test_lighter_colours_absorb_less_and_pass_more_on() -> None:
     tables = fibre_tables(Fibre())
     absorption = colour_absorption(np.array([0.05, 0.3, 0.8]), 0.3)
     assert (np.diff(absorption) < 0).all()
-    assert (np.diff(lost_in_strands(*sent_on(tables, absorption))) < 0).all()
-    assert lost_in_strands(*sent_on(tables, np.zeros(3))) == pytest.approx(0.0, abs=0.05)
+    rate, endless = pile(*sent_on(tables, absorption))
+    assert (np.diff(rate) < 0).all()
+    assert (np.diff(endless) > 0).all()
+    assert pile(*sent_on(tables, np.zeros(3)))[0] == pytest.approx(0.0, abs=0.05)
+
+
+def test_a_pile_without_end_sends_back_as_much_with_a_strand_more() -> None:
+    forward, back = np.array([0.8, 0.5, 0.1]), np.array([0.15, 0.12, 0.05])
+    rate, endless = pile(forward, back)
+    # A thin layer d over it: d of the light is met on either way, and what is sent back on each side comes back or not.
+    np.testing.assert_allclose(back - 2 * (1 - forward) * endless + back * endless**2, 0.0, atol=1e-12)
+    np.testing.assert_allclose(rate, 1 - forward - back * endless)
+
+
+def test_halves_of_the_lobes_hold_their_second_harmonic() -> None:
+    fibre = Fibre()
+    place, sine = 6, 3
+    coded = np.linspace(0, 0.98, ABSORPTIONS)[place]
+    phi = (np.arange(400) + 0.5) / 400 * np.pi
+    around = azimuthal(phi, np.array([(sine + 0.5) / SINES]), np.array([coded / (1 - coded)]), fibre)[:, 0, 0].sum(
+        axis=1
+    )
+    wanted = [(around * np.cos(2 * phi))[half].sum() * 2 * np.pi / 400 for half in (phi > np.pi / 2, phi < np.pi / 2)]
+    np.testing.assert_allclose(fibre_tables(fibre).albedo[place, sine, 4:], wanted, rtol=0.02)
 
 
 def test_a_pile_sends_back_what_any_light_from_above_does() -> None:

@@ -16,7 +16,8 @@ from headstudio.render.fibre import Fibre, melanin_absorption, scattering
 from headstudio.render.light_volume import Grid, lit_from_beside
 from headstudio.render.renderer import Renderer
 from headstudio.render.scene_block import SCENE_DTYPE
-from headstudio.render.sky_light import Sky, SkyLight, SkyPrograms, irradiance
+from headstudio.render.sky_light import Sky, SkyLight, SkyPrograms
+from headstudio.render.soft_light import irradiance
 from headstudio.render.strand_detail import FINE, StrandSurvey, thinned
 from headstudio.render.strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from headstudio.render.strand_picture import StrandScene, shown, strand_picture
@@ -127,7 +128,7 @@ def lit_hair(
     empty = SkyLight(gl, SkyPrograms(gl), programs.opacity, ball().vertices, ball().faces, FINE)
     hair.see_from_sky(empty)
     empty.see_body(np.zeros((len(ball().vertices), 3)))
-    hair.take_soft_light(empty, dark, np.ones(3))
+    hair.take_soft_light(empty, dark, BLACK)
     maps.depth.use(0)
     maps.map.use(1)
     return hair, (maps, buffer)
@@ -216,7 +217,7 @@ def test_a_ball_hides_its_part_of_the_sky(gl: moderngl.Context, programs: Strand
     sky_light.see_body(np.zeros((len(body.vertices), 3)))
     even = Sky(np.ones(3), np.ones(3), np.array([0.0, 1.0, 0.0]))
     below = np.array([[0.0, -0.083, 0.0]])
-    light = sky_light.gather(np.concatenate([below, [[0.0, -5.0, 0.0]]]), even, np.ones(3))
+    light = sky_light.gather(np.concatenate([below, [[0.0, -5.0, 0.0]]]), even, BLACK)
     hidden = 0.5 * (1 - np.sqrt(1 - (BALL_RADIUS / 0.083) ** 2))  # what the ball takes of all directions
     assert light[0, 1, 0] == pytest.approx(1 - hidden, abs=0.06)
     assert light[1, 1, 0] == pytest.approx(1.0, abs=0.1)
@@ -247,7 +248,7 @@ def test_light_from_below_reaches_a_place_under_an_overhang(gl: moderngl.Context
     sky_light.see_body(np.repeat(shining[:, None], 3, axis=1).astype(float))
     dark = Sky(np.zeros(3), np.zeros(3), np.array([0.0, 1.0, 0.0]))
     under, within = np.array([0.0, -0.09, 0.0]), np.array([0.0, -0.05, 0.0])
-    light = sky_light.gather(np.stack([under, within]), dark, np.ones(3))
+    light = sky_light.gather(np.stack([under, within]), dark, BLACK)
     # The part of all directions that a square fills, seen from above its middle.
     tall = depth + under[1]
     wanted = np.arcsin(half**2 / (half**2 + tall**2)) / np.pi
@@ -258,7 +259,7 @@ def test_light_from_below_reaches_a_place_under_an_overhang(gl: moderngl.Context
 
 def test_hair_on_the_skin_reads_no_darkness_from_within_the_body() -> None:
     grid = Grid(np.zeros(3), 0.004, (3, 3, 3), np.arange(27))
-    light = np.random.default_rng(2).uniform(0.1, 1.0, (27, 3, 4))
+    light = np.random.default_rng(2).uniform(0.1, 1.0, (27, 8, 4))
     light[:9] = 0.0  # z = 0 is under the skin
     filled = lit_from_beside(grid, light)
     np.testing.assert_array_equal(filled[9:], light[9:])

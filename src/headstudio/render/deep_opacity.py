@@ -103,8 +103,12 @@ class DeepOpacityMap:
         """
         box = lights[0].far
         depths = LAYER_DEPTHS / box
+        rates = 1.0 / np.diff(depths, prepend=0.0)
         self.cover = float(np.clip(strips.width * self.size / box, 1e-3, 1.0))
-        self._depths = {"near_depths": tuple(depths[:4]), "far_depths": tuple(depths[4:])}
+        self._depths = {
+            "near_depths": tuple(depths[:4]), "far_depths": tuple(depths[4:]),
+            "near_rates": tuple(rates[:4]), "far_rates": tuple(rates[4:]),
+        }  # fmt: skip
         with self._context.scope(self._front_target, moderngl.DEPTH_TEST):
             self._front_target.clear(depth=1.0)
             for tile, light in enumerate(lights):

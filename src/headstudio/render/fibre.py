@@ -28,6 +28,8 @@ AZIMUTHS, SINES, ABSORPTIONS = 64, 24, 24
 _OFFSETS = 48
 # Of x / (1 + x), the last absorption in the tables; coded_most in common/fibre.glsl.
 _CODED_MOST = 0.98
+# Of the light, by a strand of a pile; as in common/pile.glsl.
+_LEAST_KEPT = 1e-4
 
 
 @dataclass(frozen=True)
@@ -157,8 +159,8 @@ class FibreTables:
 
     around: A times N, (ABSORPTIONS, SINES, AZIMUTHS, LOBES). spread: the same for light that comes from anywhere within a
     quarter turn of the light's azimuth, as it does after many hairs. albedo: of the light that
-    is met, the part that goes on forward and the part that comes back, and the integral over each half of the
-    lobes times cos(phi), (ABSORPTIONS, SINES, 4).
+    is met, the part that goes on forward and the part that comes back, and the integrals over each half of the
+    lobes times cos(phi) and times cos(2 phi), (ABSORPTIONS, SINES, 6).
     """
 
     around: Floats
@@ -181,7 +183,7 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
     lobes = around.sum(axis=3) * (2 * np.pi / AZIMUTHS)
     halves = [
         (lobes * weight)[:, :, half].sum(axis=2)
-        for weight in (1.0, np.cos(phi))
+        for weight in (1.0, np.cos(phi), np.cos(2 * phi))
         for half in (np.s_[quarter:], np.s_[:quarter])
     ]
     return FibreTables(around, spread, np.stack(halves, axis=-1))
@@ -200,12 +202,21 @@ def sent_on(tables: FibreTables, absorption: Floats) -> tuple[Floats, Floats]:
     return 0.5 * (all_ + onward), 0.5 * (all_ - onward)
 
 
-def lost_in_strands(forward: Floats, back: Floats) -> Floats:
-    """By what light grows less for each strand on its way, (3,), of which each sends so much ``forward`` and ``back``: the
-    rate of Kubelka, Munk 1931, for light that goes straight on.
+def pile(forward: Floats, back: Floats) -> tuple[Floats, Floats]:
+    """By what light grows less for each strand on its way, (3,), and what strands without end send back, (3,).
+
+    Kubelka, Munk 1931, for light that goes straight on; of what it meets each strand sends so much ``forward`` and ``back``.
     """
-    kept = np.maximum(1 - forward - back, 0.0)
-    return np.sqrt(kept * (kept + 2 * back))
+    kept, back = np.maximum(1 - forward - back, _LEAST_KEPT), np.maximum(back, _LEAST_KEPT)
+    rate = np.sqrt(kept * (kept + 2 * back))
+    return rate, (kept + back - rate) / back
+
+
+def filling(sent: tuple[Floats, Floats]) -> float:
+    """How fast a pile fills with the count of strands n, to x n / (1 + x n): what white hair would send back that sends as
+    much of it back at each strand as this does in the mean over the colours.
+    """
+    return float(max(sent[1].mean(), _LEAST_KEPT))
 
 
 def _bravais(sin_out: Floats, index: float) -> Floats:

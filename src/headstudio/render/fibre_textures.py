@@ -19,13 +19,14 @@ class FibreTextures:
         self._textures: list[moderngl.Texture | moderngl.Texture3D] = []
 
     def bind(self, fibre: Fibre, first_unit: int) -> dict[str, object]:
-        """Bind the tables of ``fibre`` to three units from ``first_unit`` on; returns the uniforms of common/fibre.glsl."""
+        """Bind the tables of ``fibre`` to four units from ``first_unit`` on; returns the uniforms of common/fibre.glsl."""
         if fibre != self._fibre:
             self._make(fibre)
         for k, texture in enumerate(self._textures):
             texture.use(first_unit + k)
         return {
             "around_table": first_unit, "spread_table": first_unit + 1, "albedo_table": first_unit + 2,
+            "bent_table": first_unit + 3,
             "variances": tuple(fibre.variances),
             "tilt_cos": tuple(np.cos(fibre.tilts)),
             "tilt_sin": tuple(np.sin(fibre.tilts)),
@@ -34,11 +35,15 @@ class FibreTextures:
     def _make(self, fibre: Fibre) -> None:
         release(self._context, *self._textures)
         tables = fibre_tables(fibre)
-        absorptions, sines, parts = tables.albedo.shape
-        albedo = self._context.texture((sines, absorptions), parts, tables.albedo.astype("f4", order="C"), dtype="f4")
-        albedo.repeat_x = albedo.repeat_y = False
-        self._textures = [self._volume(tables.around), self._volume(tables.spread), albedo]
+        plain, bent = (self._plane(part) for part in np.split(tables.albedo, [4], axis=2))
+        self._textures = [self._volume(tables.around), self._volume(tables.spread), plain, bent]
         self._fibre = fibre
+
+    def _plane(self, values: Floats) -> moderngl.Texture:
+        height, width, parts = values.shape
+        plane = self._context.texture((width, height), parts, values.astype("f4", order="C"), dtype="f4")
+        plane.repeat_x = plane.repeat_y = False
+        return plane
 
     def _volume(self, values: Floats) -> moderngl.Texture3D:
         depth, height, width, parts = values.shape

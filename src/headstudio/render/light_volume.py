@@ -11,6 +11,7 @@ import numpy as np
 from ..head.mesh import Floats, Ints
 from ..wisp.strands import Singles
 from .context import release
+from .soft_light import NUMBERS
 from .view import bounds_of
 
 MOST_NODES = 600_000
@@ -54,7 +55,7 @@ def grid_around(points: Singles, finest: float) -> Grid:
 
 
 def lit_from_beside(grid: Grid, light: Floats) -> Floats:
-    """The light at the nodes near hair, (k, 3, 4), where those inside the body, which have none, take the mean of the nodes
+    """The light at the nodes near hair, (k, 8, 4), where those inside the body, which have none, take the mean of the nodes
     around them that have some: hair that lies on the skin reads nodes on both of its sides.
     """
     nx, ny, nz = grid.shape
@@ -64,7 +65,7 @@ def lit_from_beside(grid: Grid, light: Floats) -> Floats:
     row[z, y, x] = np.arange(len(flat))
     lit = np.abs(light).max(axis=(1, 2)) > 0.0
     dark = np.flatnonzero(~lit)
-    total, count = np.zeros((len(dark), 3, 4)), np.zeros(len(dark))
+    total, count = np.zeros((len(dark), *light.shape[1:])), np.zeros(len(dark))
     for dx, dy, dz in product((-1, 0, 1), repeat=3):
         beside = row[z[dark] + dz, y[dark] + dy, x[dark] + dx]
         has = (beside >= 0) & lit[beside]
@@ -76,30 +77,25 @@ def lit_from_beside(grid: Grid, light: Floats) -> Floats:
 
 
 class LightVolume:
-    """The light at the nodes of a grid as three textures, one a colour."""
+    """The light at the nodes of a grid as a texture: eight volumes of four numbers, one above the other."""
 
     def __init__(self, context: moderngl.Context, grid: Grid, light: Floats) -> None:
-        """``light`` at the nodes near hair: mean and slope for every colour, (k, 3, 4)."""
+        """``light`` at the nodes near hair, (k, 8, 4), as render/soft_light.py says."""
         self._context = context
         self._grid = grid
-        self._colours = []
-        for colour in range(3):
-            values = np.zeros((int(np.prod(grid.shape)), 4), np.float16)
-            values[grid.near_hair] = light[:, colour]
-            texture = context.texture3d(grid.shape, 4, values, dtype="f2")
-            texture.repeat_x = texture.repeat_y = texture.repeat_z = False
-            self._colours.append(texture)
+        values = np.zeros((NUMBERS, int(np.prod(grid.shape)), 4), np.float16)
+        values[:, grid.near_hair] = light.transpose(1, 0, 2)
+        nx, ny, nz = grid.shape
+        self._volume = context.texture3d((nx, ny, nz * NUMBERS), 4, values, dtype="f2")
+        self._volume.repeat_x = self._volume.repeat_y = self._volume.repeat_z = False
 
-    def bind(self, first_unit: int) -> dict[str, object]:
-        """Bind the textures to three units from ``first_unit`` on; returns the uniforms of common/soft_light.glsl."""
-        for k, texture in enumerate(self._colours):
-            texture.use(first_unit + k)
+    def bind(self, unit: int) -> dict[str, object]:
+        """Bind the texture to a unit; returns the uniforms of common/soft_light.glsl."""
+        self._volume.use(unit)
         size = self._grid.spacing * np.array(self._grid.shape)
-        return {
-            "soft_red": first_unit, "soft_green": first_unit + 1, "soft_blue": first_unit + 2,
-            "soft_low": tuple(self._grid.low - 0.5 * self._grid.spacing), "soft_size": tuple(size),
-        }  # fmt: skip
+        low = self._grid.low - 0.5 * self._grid.spacing
+        return {"soft_volumes": unit, "soft_low": tuple(low), "soft_size": tuple(size)}
 
     def release(self) -> None:
-        """Give the textures back."""
-        release(self._context, *self._colours)
+        """Give the texture back."""
+        release(self._context, self._volume)

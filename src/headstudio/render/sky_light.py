@@ -1,8 +1,7 @@
 """The soft light inside hair: what comes from all over the sky past the body and through the hair, and from the skin.
 
 The sky is a few dozen lights, each with its own deep opacity map and its own view of the body. At any place the light
-that arrives is kept as a mean and a slope for each colour (spherical harmonics up to the first degree), which hair and
-skin turn into what they send on.
+that arrives is kept as nine numbers for each colour (render/soft_light.py), which hair and skin turn into what they send on.
 """
 
 from __future__ import annotations
@@ -16,9 +15,11 @@ import numpy as np
 from ..head.mesh import Floats, Ints
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms, taken
+from .fibre import filling, pile
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky import sphere_directions
+from .soft_light import NUMBERS, weights
 from .strand_detail import StrandDetail
 from .view import Sphere, bounding_sphere, parallel_view
 
@@ -86,14 +87,16 @@ class SkyLight:
         )
         half = sphere_directions(2 * detail.pairs)[: detail.pairs]
         self._directions = np.stack([half, -half], axis=1).reshape(-1, 3)
-        self._frames = context.texture((3, 2 * detail.pairs), 3, dtype="f4")
+        self._frames = context.texture((6, 2 * detail.pairs), 3, dtype="f4")
         self._frames.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._body_sphere = self._hair_sphere = bounding_sphere(vertices)
         self._views = [
             parallel_view(direction, self._body_sphere.centre, self._body_sphere.radius)
             for direction in self._directions
         ]
-        self._frames.write(np.array([[view.right, view.up, -view.forward] for view in self._views], np.float32))
+        frames = np.array([[view.right, view.up, -view.forward] for view in self._views])
+        counts = weights(self._directions).reshape(-1, 3, 3)
+        self._frames.write(np.concatenate([frames, counts], axis=1).astype(np.float32))
 
     def see_hair(self, strips: LightStrips, sphere: Sphere) -> None:
         """Look at the hair, which lies within a sphere, from everywhere."""
@@ -124,22 +127,19 @@ class SkyLight:
             target.viewport = (0, 0, *target.size)
             self._context.depth_func = "<"
 
-    def gather(self, places: Floats, sky: Sky, lost: Floats, clear: float = 0.0) -> Floats:
-        """The light that arrives at ``places`` [m], (n, 3): mean and slope for every colour, (n, 3, 4); none inside the body.
+    def gather(self, places: Floats, sky: Sky, sent: tuple[Floats, Floats], clear: float = 0.0) -> Floats:
+        """The light that arrives at ``places`` [m], (n, 3): (n, 8, 4), as render/soft_light.py says; none inside the body.
 
-        lost: of light that meets a strand, the part that does not go on, RGB. clear: no strand is so near to a place [m].
+        sent: of light that meets a strand, what goes on and what comes back, RGB. clear: no strand is so near to a place [m].
         """
+        rate, endless = pile(*sent)
         self._frames.use(1)
         self._body.use(2)
         self._far_body.use(3)
         return receive(
-            self._context, self._programs.gather, "gather", places, 3, directions=1, body=2, far_body=3, tiles=self._tiles,
-            body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
-            taken=tuple(taken(lost, self._hair.cover)), sky_above=tuple(sky.above),
+            self._context, self._programs.gather, "gather", places, NUMBERS, directions=1, body=2, far_body=3,
+            tiles=self._tiles, body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
+            rate=tuple(taken(rate, self._hair.cover)), endless=tuple(endless), filling=filling(sent),
+            sky_above=tuple(sky.above),
             sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS, clear=clear, **self._hair.bind(4),
         )  # fmt: skip
-
-
-def irradiance(light: Floats, normals: Floats) -> Floats:
-    """What falls on surfaces with these unit normals, (n, 3), in such light, (n, 3, 4): linear RGB, (n, 3)."""
-    return np.pi * np.maximum(light[:, :, 0] + 2 / 3 * np.einsum("nci,ni->nc", light[:, :, 1:], normals), 0.0)

@@ -14,7 +14,7 @@ from ..head.mesh import Floats
 from ..wisp.strands import Singles
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
-from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, lost_in_strands, sent_on
+from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, filling, sent_on
 from .fibre_textures import FibreTextures
 from .light_volume import LightVolume, grid_around, lit_from_beside
 from .occlusion import Occluder
@@ -116,6 +116,7 @@ class StrandHair:
         self._hair_view: View
         self._lit_from: tuple[bytes, bytes, int] | None = None
         self._soft: LightVolume | None = None
+        self._filling = 1.0
 
     def suits(self, survey: StrandSurvey, shown: int, detail: StrandDetail, sparse: bool) -> bool:
         """True if these are strands of that shape in that detail; their colours may be others."""
@@ -189,12 +190,13 @@ class StrandHair:
         """Show the hair to the sky: as many of the strands, spread evenly over all, as it can look through."""
         sky_light.see_hair(self._for_sky, self._sphere)
 
-    def take_soft_light(self, sky_light: SkyLight, sky: Sky, lost: Floats) -> None:
-        """Work out the soft light all through the hair; ``lost`` as in SkyLight.gather."""
+    def take_soft_light(self, sky_light: SkyLight, sky: Sky, sent: tuple[Floats, Floats]) -> None:
+        """Work out the soft light all through the hair; ``sent`` as in SkyLight.gather."""
         if self._soft is not None:
             self._soft.release()
-        light = lit_from_beside(self._grid, sky_light.gather(self._grid.places, sky, lost, _CLEAR * self.survey.width))
+        light = lit_from_beside(self._grid, sky_light.gather(self._grid.places, sky, sent, _CLEAR * self.survey.width))
         self._soft = LightVolume(self._context, self._grid, light)
+        self._filling = filling(sent)
 
     def sent_on(self, material: StrandMaterial) -> tuple[Floats, Floats]:
         """Of light that meets a strand, what goes on and what comes back, RGB, (3,) each, in the mean over the hair."""
@@ -202,10 +204,6 @@ class StrandHair:
         if self._mean_colour is not None:
             absorption = colour_absorption(self._mean_colour, material.fibre.radial_roughness)
         return sent_on(fibre_tables(material.fibre), absorption)
-
-    def lost(self, material: StrandMaterial) -> Floats:
-        """Of soft light that meets a strand, the part that does not go on, RGB, in the mean over the hair."""
-        return lost_in_strands(*self.sent_on(material))
 
     def sunlit(self, places: Floats, maps: LightTargets, sent: tuple[Floats, Floats]) -> Floats:
         """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3), between the strands and by
@@ -238,12 +236,13 @@ class StrandHair:
             "hair_absorption": material.absorption,
             "colour_slope": colour_slope(fibre.radial_roughness),
             "fibre_model": material.fibre_model,
+            "filling": self._filling,
             **self._programs.fibre.bind(fibre, 5),
         }  # fmt: skip
         rows = -(-int(self._first[self._drawn]) // POINT_ROW)
         with self._context.scope(self._shade_target, moderngl.NOTHING):
             self._shade_target.viewport = (0, 0, POINT_ROW, max(rows, 1))
-            self._programs.screens.draw("shade", **uniforms, **self.light_uniforms(8), **self._soft.bind(11))
+            self._programs.screens.draw("shade", **uniforms, **self.light_uniforms(9), **self._soft.bind(12))
 
     def draw(
         self,

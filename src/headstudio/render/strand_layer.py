@@ -132,7 +132,7 @@ class _HeadSky:
         if self._body_lit != (look.ambient, look.skin_colour):
             self._sky.see_body(0.5 * linear(look.skin_colour) * np.broadcast_to(sky.above, skin.vertices.shape))
             self._body_lit = (look.ambient, look.skin_colour)
-        strands.take_soft_light(self._sky, sky, strands.lost(material))
+        strands.take_soft_light(self._sky, sky, strands.sent_on(material))
         self._lit = wanted
 
 

@@ -22,7 +22,8 @@ from .occlusion import Occluder
 from .plain_body import PlainBody, PlainBodyPrograms
 from .scene_block import SCENE_DTYPE
 from .screen import ScreenPasses
-from .sky_light import Sky, SkyLight, SkyPrograms, irradiance
+from .sky_light import Sky, SkyLight, SkyPrograms
+from .soft_light import irradiance
 from .strand_detail import FINE, StrandSurvey
 from .strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from .targets import light_targets, picture_targets
@@ -85,7 +86,6 @@ def strand_picture(
         body.draw_depth()
     hair.shed_light(light, HeadFrame(), maps, SHADOW_SIZE)
     sky = Sky(scene.sky, scene.sky, np.array([0.0, 1.0, 0.0]))
-    lost = hair.lost(scene.material)
     sky_light = SkyLight(context, SkyPrograms(context), programs.opacity, body.vertices, body.faces, FINE)
     hair.see_from_sky(sky_light)
     soft = np.pi * np.broadcast_to(scene.sky, body.vertices.shape) * 0.5
@@ -95,9 +95,9 @@ def strand_picture(
     sunlit = facing * hair.sunlit(above, maps, sent) * scene.sun
     for _ in range(BOUNCES):
         sky_light.see_body(scene.diffuse / np.pi * (soft + sunlit))
-        soft = irradiance(sky_light.gather(above, sky, lost), body.normals)
+        soft = irradiance(sky_light.gather(above, sky, sent), body.normals)
     body.set_soft_light(soft)
-    hair.take_soft_light(sky_light, sky, lost)
+    hair.take_soft_light(sky_light, sky, sent)
     maps.depth.use(0)
     maps.map.use(1)
     hair.shade(scene.material)
