@@ -23,6 +23,8 @@ from .valleys import valley_field
 _SMOOTH, _SAME_SHAPE = 0.014, 2e-4
 # Texels that tell this much of it lie beside grooves; under one and its rims they tell so much.
 _FREE, _UNDER = 0.5, 0.02
+# Less than this part of the scan beside grooves tells nothing about it.
+_TELLING = 0.05
 # A groove and its rims lie within so many widths, its floor within so many.
 _FOOT, _FLOOR = 4.0, 1.5
 # Where grooves run into each other they seem to have no end: none is wider than this [m].
@@ -206,10 +208,12 @@ def _beside(fit: GrooveFit) -> Floats:
 def _notable(smooth: Floats, raw: ScanHeights, beside: Floats) -> Floats:
     """A smooth change of shape, (k,), or none where half of what lies ``beside`` grooves, (k,), is too near for one.
 
-    The smooth change itself cannot tell: where grooves are close together it is what these give, on the whole.
+    The smooth change itself cannot tell: where grooves are close together it is what these give, on the whole. Nor can a few
+    places that wide grooves leave.
     """
     free = np.abs(raw.height[raw.covered & (beside > _FREE)])
-    return smooth if len(free) and np.median(free) > _SAME_SHAPE else np.zeros_like(smooth)
+    enough = len(free) > _TELLING * raw.covered.sum()
+    return smooth if enough and np.median(free) > _SAME_SHAPE else np.zeros_like(smooth)
 
 
 def _pruned(fit: GrooveFit) -> GrooveFit:
