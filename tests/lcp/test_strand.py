@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
+from headstudio.lcp.contact import Touching
 from headstudio.lcp.implicit import ImplicitSolver
 from headstudio.lcp.settings import DynamicsSettings
 from headstudio.lcp.strand import Strands
@@ -16,6 +17,17 @@ from .dome import hanging_chain, no_body
 from .test_solvers import shaken
 
 LENGTHS = np.array([-0.002, 0.05, 0.1])
+UP = np.array([0.0, 1.0, 0.0])
+
+
+def floor(distance):
+    """Planes at ``distance`` below all three particles, and that distance."""
+    return Touching(np.full(3, distance), np.tile(UP, (3, 1)), np.zeros((3, 3)), np.full(3, 0.006)), np.full(
+        3, distance
+    )
+
+
+FREE = floor(np.inf)
 
 
 @pytest.fixture(scope="module")
@@ -30,11 +42,11 @@ def reaching(chain, *shares):
 
 
 def test_slack_strands_do_not_pull(chain):
-    assert len(Strands(chain).taut(reaching(chain, 0.999, 0.5), np.zeros((3, 3))).which) == 0
+    assert len(Strands(chain).taut(reaching(chain, 0.999, 0.5), np.zeros((3, 3)), *FREE).which) == 0
 
 
 def test_a_taut_strand_pulls_home_with_three_times_its_weight_for_a_hundredth(chain):
-    hold = Strands(chain).taut(reaching(chain, 1.01, 1.02), np.zeros((3, 3)))
+    hold = Strands(chain).taut(reaching(chain, 1.01, 1.02), np.zeros((3, 3)), *FREE)
     np.testing.assert_array_equal(hold.which, [1, 2])
     pull = np.array([[0.0, 1.0, 0.0], [-0.6, 0.0, 0.8]]) * np.array([[30.0], [60.0]]) * chain.mass[1:, None]
     np.testing.assert_allclose(hold.forces(), pull, rtol=1e-9)
@@ -42,20 +54,29 @@ def test_a_taut_strand_pulls_home_with_three_times_its_weight_for_a_hundredth(ch
 
 def test_its_stiffness_is_the_slope_of_its_pull(chain):
     strands, still, dx = Strands(chain), np.zeros((3, 3)), 1e-7
-    hold = strands.taut(reaching(chain, 1.01, 1.02), still)
+    hold = strands.taut(reaching(chain, 1.01, 1.02), still, *FREE)
     for i, along in zip(hold.which, hold.direction, strict=True):
         across = np.cross(along, [0.3, 0.5, 0.7])
         across /= np.linalg.norm(across)
         for way, slope in ((along, hold.stiffness_along), (across, hold.stiffness_across)):
             moved = reaching(chain, 1.01, 1.02)
             moved[i] += dx * way
-            change = (strands.taut(moved, still).forces() - hold.forces())[i - 1] / dx
+            change = (strands.taut(moved, still, *FREE).forces() - hold.forces())[i - 1] / dx
             np.testing.assert_allclose(change, -slope[i - 1] * way, atol=1e-4 * hold.stiffness_along[i - 1])
+
+
+def test_hair_on_the_body_is_drawn_along_it(chain):
+    """The root lies below and beside, the floor between them."""
+    away = chain.root_points + np.array([[0.0, 0.0, 0.0], [0.0, 0.01, 0.06], [0.03, 0.01, 0.0]])
+    on_floor, above = (Strands(chain).taut(away, np.zeros((3, 3)), *floor(height)) for height in (0.001, 0.01))
+    np.testing.assert_array_equal(on_floor.which, [1])
+    np.testing.assert_allclose(on_floor.forces(), [[0.0, 0.0, -np.linalg.norm(above.forces())]])
+    assert above.forces()[0, 1] < 0
 
 
 def test_root_particles_have_no_strand(chain):
     far = chain.root_points + 1.0
-    assert 0 not in Strands(chain).taut(far, np.zeros((3, 3))).which
+    assert 0 not in Strands(chain).taut(far, np.zeros((3, 3)), *FREE).which
 
 
 @pytest.mark.parametrize("bending_scale", [0.1, 1.0])

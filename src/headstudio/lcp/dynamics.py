@@ -110,7 +110,7 @@ class Dynamics:
         positions [m], velocities [m/s]: (n, 3). distance: from the planes of ``touch`` [m], (n,).
         """
         with self.timer.stage("springs"):
-            taut = self.strands.taut(positions, velocities)
+            taut = self.strands.taut(positions, velocities, touch, distance)
         with self.timer.stage("contact"):
             return taut, pressed(self.model, touch, distance, velocities, settings.body_friction)
 

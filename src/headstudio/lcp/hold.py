@@ -12,9 +12,9 @@ from ..head.rows import row_dot
 class Hold:
     """Springs with damping on k particles.
 
-    which: the particles, (k,), and direction: a unit vector for each, (k, 3). push: the force of the spring along it [N],
-    (k,). slip: the velocity that is damped [m/s], (k, 3). Stiffness [N/m] and damping [kg/s] along the direction and across
-    it, (k,).
+    which: the particles, (k,), and direction: a vector for each, of length 1 or shorter, (k, 3). push: the force of the
+    spring along it [N], (k,). slip: the velocity that is damped [m/s], (k, 3). Stiffness [N/m] and damping [kg/s] along the
+    direction and across it, (k,).
     """
 
     which: Ints

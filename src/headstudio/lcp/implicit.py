@@ -15,6 +15,7 @@ solve it. Taut strands and the body hold single particles: they are in f, K and 
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -33,6 +34,8 @@ from .spring_matrix import SpringMatrix
 _FEWEST_PARTS, _MOST_PARTS = 2, 4
 _PART_LENGTH = 0.06  # [m]
 _PARTICLES_IN_TIME = 4000  # particles times parts that keep up with real time
+# Stiffer hair is turned too far by a part of half a step, and breaks [Pa].
+_MODULUS_CARRIED = 1e6
 # What is left of a solution goes on into the next ones: this is the dearest number of the solver, and pays for itself.
 _TOLERANCE = 1e-2
 
@@ -41,32 +44,35 @@ class ImplicitSolver:
     """Steps hair at the rate of the display, whatever the stiffness."""
 
     def __init__(self, dynamics: Dynamics, parts: int | None = None, tolerance: float = _TOLERANCE) -> None:
-        """parts: of a step; by the length of links and what real time affords if not given. tolerance: of the solution."""
+        """parts: of a step; as ``parts`` says if not given. tolerance: of the solution."""
         self.dynamics = dynamics
         model = dynamics.model
         length = float(np.median(model.rest_length)) if len(model.rest_length) else _PART_LENGTH
         affordable = min(_PARTICLES_IN_TIME // max(model.count, 1), _MOST_PARTS)
-        self.parts = parts or max(_FEWEST_PARTS, round(_PART_LENGTH / length), affordable)
+        self._given = parts
+        self._fewest = max(_FEWEST_PARTS, round(_PART_LENGTH / length), affordable)
         self.tolerance = tolerance
         self._matrix = SpringMatrix(model, dynamics.springs)
         self._stiffened: tuple[float, float] | None = None
 
+    def parts(self, settings: DynamicsSettings) -> int:
+        """How many parts a step has: by the length of links, what real time affords and the stiffness of hair."""
+        stiff = math.ceil(_FEWEST_PARTS * math.sqrt(settings.elastic_modulus / _MODULUS_CARRIED))
+        return self._given or max(self._fewest, stiff)
+
     def step(self, state: HairState, now: Circumstances, dt: float) -> HairState:
         """The state one step of dt [s] later, by section 3.1 of the paper.
 
-        Hair directions and hair-hair interactions change slowly: they are found once, for the middle of the step. Springs,
-        inertia and contact go through the step in ``parts``.
+        Hair-hair interactions are the dear part and change slowly: they are found once, for the middle of the step.
+        Springs, inertia and contact go through the step in ``parts``.
         """
-        halfway = self._halfway(state, dt)
-        links = self.dynamics.links(halfway.positions, now.settings)
-        halfway = replace(halfway, directions=self.dynamics.turn(links, state.directions))
-        outer = self.dynamics.outer_acceleration(halfway, now, dt)
-        state = replace(state, directions=halfway.directions)
-        self._stiffen(now.settings, dt / self.parts)
+        parts = self.parts(now.settings)
+        outer = self.dynamics.outer_acceleration(_halfway(state, dt, parts), now, dt)
+        self._stiffen(now.settings, dt / parts)
         frame = now.at(state.time)
-        for _ in range(self.parts):
-            frames = frame, (frame := now.at(state.time + dt / self.parts))
-            state = self._part(state, now, frames, outer, dt / self.parts)
+        for _ in range(parts):
+            frames = frame, (frame := now.at(state.time + dt / parts))
+            state = self._part(state, now, frames, outer, dt / parts)
         return state
 
     def _stiffen(self, settings: DynamicsSettings, dt: float) -> None:
@@ -74,15 +80,6 @@ class ImplicitSolver:
         if (settings.stiffness, dt) != self._stiffened:
             self._matrix.stiffen(self.dynamics.bending.too_stiff(settings, dt), WEIGHT * dt)
             self._stiffened = (settings.stiffness, dt)
-
-    def _halfway(self, state: HairState, dt: float) -> HairState:
-        """Where hair comes to in half of a step of dt [s], and how fast, if it goes on to gain what it gained last."""
-        gained = state.velocities - state.before[1] if state.before else 0.0
-        return replace(
-            state,
-            positions=state.positions + 0.5 * dt * state.velocities,
-            velocities=state.velocities + 0.5 * self.parts * gained,
-        )
 
     def _part(
         self, state: HairState, now: Circumstances, frames: tuple[HeadFrame, HeadFrame], outer: Floats, dt: float
@@ -102,8 +99,9 @@ class ImplicitSolver:
         ahead = x_hat + g * v
         x_felt = on_the_way(x, ahead)
         links = dynamics.links(x_felt, settings)
+        directions = dynamics.turn(links, state.directions)
         load = dynamics.springs.load(links, settings)
-        force = mass * (outer + dynamics.bending_acceleration(settings, x_felt, v, state.directions))
+        force = mass * (outer + dynamics.bending_acceleration(settings, x_felt, v, directions))
         # Coriolis turns with the velocity and stays out of the matrix, which is symmetric: it takes the velocity to come,
         # or it would lag behind by a part.
         coming = FORCE_AT * gained
@@ -131,7 +129,7 @@ class ImplicitSolver:
             looking_back(x_free, x, x_before) + (x_new - x_free),
             looking_back(free, v, v_before) + (v_new - free),
         )
-        return HairState(x_new, v_new, state.directions, state.time + dt, before)
+        return HairState(x_new, v_new, directions, state.time + dt, before)
 
     def _earlier(
         self, state: HairState, now: Circumstances, frame: HeadFrame, outer: Floats, dt: float
@@ -150,3 +148,13 @@ class ImplicitSolver:
         acceleration += force / dynamics.model.mass[:, None]
         acceleration[dynamics.model.fixed] = 0.0
         return x - dt * v, v - dt * acceleration
+
+
+def _halfway(state: HairState, dt: float, parts: int) -> HairState:
+    """Where hair comes to in half of a step of dt [s], and how fast, if it goes on to gain what it gained in the last part."""
+    gained = state.velocities - state.before[1] if state.before else 0.0
+    return replace(
+        state,
+        positions=state.positions + 0.5 * dt * state.velocities,
+        velocities=state.velocities + 0.5 * parts * gained,
+    )

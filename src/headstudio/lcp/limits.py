@@ -9,10 +9,12 @@ from ..head.rows import row_dot, row_length, rows_at
 from .contact import Touching
 from .links import LENGTHWISE
 from .model import HairModel
+from .strand import led_along
 
-LONGEST_REACH = 1.04
+LONGEST_REACH = 1.035
 """A taut strand (strand.py) gives way to this much of its length."""
 LONGEST_LINK = 1.08
+_LEAST_GAIN = 0.3  # of a way along the body over the straight one
 _DEEPEST = 0.001  # that hair may be below the surface [m]
 
 
@@ -37,9 +39,11 @@ def put_back(
     reach, s = row_length(from_root), model.arc_length
     longest = s + (LONGEST_REACH - 1.0) * np.maximum(s, model.spacing)
     far = np.flatnonzero((reach > longest) & ~model.fixed)
-    outward = rows_at(from_root, far) / reach[far, None]
-    back[far] -= (reach - longest)[far, None] * outward
-    stopped[far] -= np.maximum(row_dot(rows_at(stopped, far), outward), 0.0)[:, None] * outward
+    inward = -rows_at(from_root, far) / reach[far, None]
+    way = led_along(inward, far, touch, distance)
+    # A way along the body brings less than the straight one.
+    back[far] += ((reach - longest)[far] / np.maximum(row_dot(way, inward), _LEAST_GAIN))[:, None] * way
+    stopped[far] -= np.minimum(row_dot(rows_at(stopped, far), way), 0.0)[:, None] * way
     return back, stopped
 
 

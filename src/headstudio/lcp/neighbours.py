@@ -16,25 +16,27 @@ from ..head.rows import row_dot
 # that come after it.
 _HALF_ROWS = np.array([(0, 0, 0, 1), (1, 0, -1, 1), (-1, 1, -1, 1), (0, 1, -1, 1), (1, 1, -1, 1)])
 
+_WIDEST = 100  # cells in a row
+
 
 def find_pairs(positions: Floats, radius: float) -> Ints:
     """All pairs (i, j), each once, of particles closer than ``radius`` [m], shape (p, 2). positions: [m], (n, 3)."""
     count = len(positions)
     if count < 2:
         return np.zeros((0, 2), dtype=np.int64)
-    cell = np.floor((positions - positions.min(axis=0)) / radius).astype(np.int64) + 1
-    nx, ny = cell[:, 0].max() + 2, cell[:, 1].max() + 2
-    key = (cell[:, 2] * ny + cell[:, 1]) * nx + cell[:, 0]
+    columns = positions.T
+    cell = _cells(columns, radius)
+    nx, ny, nz = cell.max(axis=1) + 2
+    key = (cell[2] * ny + cell[1]) * nx + cell[0]
     order = np.argsort(key, kind="stable")
-    key, columns = key[order], np.ascontiguousarray(positions[order].T)
-    # All particles of a cell look through the same runs, but for those of their own row.
-    opens = np.append(True, key[1:] != key[:-1])
-    cell_key, cell_of = key[opens], np.cumsum(opens) - 1
+    key, columns = key.take(order), columns.take(order, axis=1)
+    begins = np.zeros(nx * ny * nz + 1, dtype=np.int64)
+    np.cumsum(np.bincount(key, minlength=nx * ny * nz), out=begins[1:])
     dy, dz, first, last = _HALF_ROWS.T[:, :, None]
-    row = cell_key + (dz * ny + dy) * nx
-    begin = np.searchsorted(key, row + first, "left")[:, cell_of]
-    begin[0] = np.arange(1, count + 1)
-    runs = np.maximum(np.searchsorted(key, row + last, "right")[:, cell_of] - begin, 0).ravel()
+    row = key + (dz * ny + dy) * nx
+    begin = begins.take(row + first)
+    begin[0] = np.arange(1, count + 1)  # of a particle's own row those that come after it
+    runs = (begins.take(row + last + 1) - begin).ravel()
     # The k-th candidate of a run stands k places behind the run's begin.
     ends = np.cumsum(runs)
     i = np.repeat(np.tile(np.arange(count), len(_HALF_ROWS)), runs)
@@ -45,6 +47,17 @@ def find_pairs(positions: Floats, radius: float) -> Ints:
         square += way * way
     near = np.flatnonzero(square < radius * radius)
     return order[np.stack([i[near], j[near]], axis=1)]
+
+
+def _cells(columns: Floats, radius: float) -> Ints:
+    """The cell of every particle, (3, n), from 1 on. columns: their positions [m], (3, n).
+
+    What lies beyond the widest grid counts to its border: those that were in cells side by side still are.
+    """
+    origin = columns.min(axis=1)[:, None]
+    if np.ptp(columns, axis=1).max() > _WIDEST * radius:
+        origin = np.maximum(origin, np.median(columns, axis=1)[:, None] - 0.5 * _WIDEST * radius)
+    return np.fmin(np.fmax((columns - origin) / radius, 0.0), _WIDEST).astype(np.int64) + 1
 
 
 class NeighbourList:

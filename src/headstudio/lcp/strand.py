@@ -14,13 +14,30 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..head.mesh import Floats
-from ..head.rows import row_length, rows_at
+from ..head.mesh import Floats, Ints
+from ..head.rows import row_dot, row_length, rows_at
+from .contact import Touching
 from .hold import Hold
 from .model import HairModel
 
 _SHORTEST = 0.1  # of the mean distance of particles: no strand is stiffer than one of this length
+_STEEPEST = 0.3  # sine of the angle up to which a pull into the body becomes one along it as strong
+_THIN = 0.001  # as if hair were at least so thick [m]
 _TAUTNESS = 3000.0  # A: stretched by a hundredth, a strand carries three times its weight [m/s^2]
+
+
+def led_along(ways: Floats, which: Ints, touch: Touching, distance: Floats) -> Floats:
+    """Ways of the particles ``which``, (k, 3), that do not lead into the body: the more along it, the more hair is pressed.
+
+    ways: unit vectors, (k, 3). distance: from the planes of ``touch`` [m], (n,).
+    """
+    normals = rows_at(touch.normals, which)
+    keep = touch.keep[which]
+    pressed = np.clip((keep - distance[which]) / np.maximum(keep, _THIN), 0.0, 1.0)
+    into = pressed * np.minimum(row_dot(ways, normals), 0.0)
+    along = ways - into[:, None] * normals
+    # A way straight into the body leads nowhere.
+    return along / np.maximum(row_length(along), _STEEPEST)[:, None]
 
 
 class Strands:
@@ -35,16 +52,20 @@ class Strands:
         self._stiffness = model.mass * self.square_frequency
         self._damping = 2.0 * model.mass * np.sqrt(self.square_frequency)  # critical
 
-    def taut(self, positions: Floats, velocities: Floats) -> Hold:
-        """Those that reach further than they are long. positions [m], velocities [m/s]: head frame, (n, 3)."""
+    def taut(self, positions: Floats, velocities: Floats, touch: Touching, distance: Floats) -> Hold:
+        """Those that reach further than they are long. positions [m], velocities [m/s]: head frame, (n, 3).
+
+        distance: from the planes of ``touch`` [m], (n,). Hair on the body is drawn along it.
+        """
         from_root = positions - self._root_points
         reach = row_length(from_root)
         which = np.flatnonzero(reach > self._length)
         length, stiffness = reach[which], self._stiffness[which]
         pull = stiffness * (length - self._length[which])
+        outward = rows_at(from_root, which) / length[:, None]
         return Hold(
             which,
-            direction=rows_at(from_root, which) / length[:, None],
+            direction=-led_along(-outward, which, touch, distance),
             push=-pull,
             slip=rows_at(velocities, which),
             stiffness_along=stiffness,

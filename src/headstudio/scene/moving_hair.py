@@ -73,7 +73,7 @@ class MovingHair:
     @property
     def parts(self) -> int:
         """How often the real-time solver integrates the equations of motion in an internal step; 0 for the reference."""
-        return self.solver.parts if isinstance(self.solver, ImplicitSolver) else 0
+        return self.solver.parts(self.document.lcp) if isinstance(self.solver, ImplicitSolver) else 0
 
     def reset(self) -> None:
         """Back to the initial state at time 0, with the head at rest and no air."""
