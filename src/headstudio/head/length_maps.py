@@ -7,6 +7,7 @@ from scipy.ndimage import map_coordinates
 
 from .mesh import Floats
 from .scalp_settings import GrayImage
+from .smooth import smoothstep
 
 SIZE = 256
 
@@ -25,12 +26,6 @@ def sample(image: GrayImage, uv: Floats) -> Floats:
     return map_coordinates(image.pixels.astype(np.float64), at, order=1, mode="nearest")
 
 
-def _ramp(value: Floats, start: float, end: float) -> Floats:
-    """0 before ``start``, 1 after ``end``, smooth between."""
-    part = np.clip((value - start) / (end - start), 0.0, 1.0)
-    return part * part * (3 - 2 * part)
-
-
 def _off_middle(u: Floats) -> Floats:
     """How far from the middle line, 0 in the middle and 1 at the ears."""
     return np.abs(2 * u - 1)
@@ -42,13 +37,13 @@ def _even(u: Floats, v: Floats) -> Floats:
 
 def _fringe(u: Floats, v: Floats) -> Floats:
     # Over the forehead hair grows toward the face: what stands further back may be longer by the way it has to go.
-    over_forehead = 0.2 + 0.45 * _ramp(v, 0.05, 0.35) + 0.35 * _ramp(v, 0.3, 0.55)
-    beside = _ramp(_off_middle(u), 0.35, 0.75)
+    over_forehead = 0.2 + 0.45 * smoothstep(v, 0.05, 0.35) + 0.35 * smoothstep(v, 0.3, 0.55)
+    beside = smoothstep(_off_middle(u), 0.35, 0.75)
     return over_forehead + (1 - over_forehead) * beside
 
 
 def _long_back(u: Floats, v: Floats) -> Floats:
-    return 0.04 + 0.96 * _ramp(v, 0.3, 0.65)
+    return 0.04 + 0.96 * smoothstep(v, 0.3, 0.65)
 
 
 def _bob(u: Floats, v: Floats) -> Floats:
@@ -59,7 +54,9 @@ def _bob(u: Floats, v: Floats) -> Floats:
 
 def _short(u: Floats, v: Floats) -> Floats:
     # Longest on top, tapering to the forehead, the ears and the nape.
-    rim = np.maximum(0.6 * (1 - _ramp(v, 0.0, 0.25)), np.maximum(_ramp(_off_middle(u), 0.3, 0.9), _ramp(v, 0.5, 0.95)))
+    rim = np.maximum(
+        0.6 * (1 - smoothstep(v, 0.0, 0.25)), np.maximum(smoothstep(_off_middle(u), 0.3, 0.9), smoothstep(v, 0.5, 0.95))
+    )
     return 0.25 - 0.15 * rim
 
 

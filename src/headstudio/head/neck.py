@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from .mesh import Floats
 from .rows import cross_matrix, mapped, row_dot
+from .smooth import smoothstep
 
 _NEWTON_STEPS = 3
 # Where the inner side of a bend folds up, one place at rest comes to many: there Newton's way is kept this steep.
@@ -78,7 +79,7 @@ class Neck:
         return np.minimum(np.maximum((self.top - height) / self.length, 0.0), 1.0)
 
     def _share(self, below: Floats) -> Floats:
-        return 1.0 - below * below * (3.0 - 2.0 * below)
+        return 1.0 - smoothstep(below)
 
     def _slope(self, below: Floats) -> Floats:
         return (6.0 / self.length) * below * (1.0 - below)

@@ -12,6 +12,7 @@ from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.mouth import lines_mouth
 from ..head.sight import lip_seam
+from ..head.smooth import smoothstep
 from ..lcp.model import HairModel
 
 # From the edge of a tooth to where its gum begins in front [m], and how much of that is left at the ends of a row.
@@ -69,7 +70,7 @@ def gums(teeth: TriangleMesh, upper: bool) -> Floats:
     height, forward = teeth.vertices[:, 1], teeth.vertices[:, 2]
     beyond = height - height.min() if upper else height.max() - height
     ahead = (forward - forward.min()) / np.ptp(forward)
-    return _smoothstep(*_CROWN, beyond / (_MOLAR + (1.0 - _MOLAR) * ahead))
+    return smoothstep(beyond / (_MOLAR + (1.0 - _MOLAR) * ahead), *_CROWN)
 
 
 def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
@@ -78,12 +79,7 @@ def scalp_cover(head: Head, hair: HairModel | None) -> Floats:
         return np.zeros(len(head.skin.vertices))
     distance, _ = cKDTree(hair.root_points).query(head.skin.vertices)
     near, far = _SCALP_REACH
-    return 1.0 - _smoothstep(near, far, distance)
-
-
-def _smoothstep(low: float, high: float, value: Floats) -> Floats:
-    t = np.clip((value - low) / (high - low), 0.0, 1.0)
-    return t * t * (3 - 2 * t)
+    return 1.0 - smoothstep(distance, near, far)
 
 
 def _face_axes(marks: Landmarks) -> tuple[Floats, Floats]:
@@ -109,11 +105,11 @@ def _lips(head: Head) -> Floats:
     height = height - np.interp(across, seam_across, seam_height)
     bow = 1 - 0.20 * np.exp(-((across / 0.16) ** 2))
     # The red reaches a little around the corners, where an open mouth shows what lay between the lips.
-    corner = 0.07 * (1 - _smoothstep(1.0, 1.12, np.abs(across)))
+    corner = 0.07 * (1 - smoothstep(np.abs(across), 1.0, 1.12))
     upper, lower = np.maximum(0.34 * arch * bow, corner), np.maximum(0.44 * arch, corner)
     inside = np.where(height > 0, height / np.maximum(upper, 1e-6), -height / np.maximum(lower, 1e-6))
-    front = _smoothstep(-1.7, -0.7, depth)
-    lips = (1 - _smoothstep(0.75, 1.15, inside)) * front * (np.abs(across) < 1.12)
+    front = smoothstep(depth, -1.7, -0.7)
+    lips = (1 - smoothstep(inside, 0.75, 1.15)) * front * (np.abs(across) < 1.12)
     return np.where(lines_mouth(head.skin, marks), 1.0, lips)
 
 
@@ -130,9 +126,9 @@ def _brows(points: Floats, marks: Landmarks) -> Floats:
         # No thinner than the triangles that carry it: a thinner tail comes in tufts.
         thickness = span * (0.058 * (1 - t) ** 0.7 + 0.026)
         off = np.abs((points - eye) @ up - arc) / thickness
-        ends = _smoothstep(-0.34, -0.24, along) * (1 - _smoothstep(0.24, 0.41, along))
-        front = _smoothstep(-0.04, -0.02, (points - eye) @ out)
-        cover = np.maximum(cover, (1 - _smoothstep(0.3, 1.0, off)) * ends * front)
+        ends = smoothstep(along, -0.34, -0.24) * (1 - smoothstep(along, 0.24, 0.41))
+        front = smoothstep((points - eye) @ out, -0.04, -0.02)
+        cover = np.maximum(cover, (1 - smoothstep(off, 0.3, 1.0)) * ends * front)
     return cover
 
 

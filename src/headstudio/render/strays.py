@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..head.mesh import Floats, Ints
+from ..head.smooth import smoothstep
 from ..lcp.model import HairModel
 
 _STRAYS = (0.014, 0.034)
@@ -61,14 +62,14 @@ class StrayFinder:
         here, course = positions[held], directions[held]
         way = here - positions[holds]
         off = np.minimum(_off(way, course), _off(here - (self._rootward_mean @ positions)[held], course))
-        astray = smoothstep(*_STRAYS, off)
+        astray = smoothstep(off, *_STRAYS)
         out = np.flatnonzero(astray)
         length = np.sqrt(np.einsum("mi,mi->m", way[out], way[out]))
         ahead = np.einsum("mi,mi->m", way[out], course[out]) / np.maximum(length, 1e-12)
         lost = np.zeros(len(positions))
-        lost[held[out]] = astray[out] * (1 - smoothstep(*_AHEAD, ahead) * (1 - smoothstep(*_LONGEST, length)))
+        lost[held[out]] = astray[out] * (1 - smoothstep(ahead, *_AHEAD) * (1 - smoothstep(length, *_LONGEST)))
         for _ in range(_GENERATIONS):
-            lost = np.maximum(lost, smoothstep(0.5, 1.0, self._rootward_mean @ lost))
+            lost = np.maximum(lost, smoothstep(self._rootward_mean @ lost, 0.5, 1.0))
         return Strays(held[out], astray[out], positions[holds[out]], directions[holds[out]], lost)
 
 
@@ -77,9 +78,3 @@ def _off(way: Floats, course: Floats) -> Floats:
     length = np.sqrt(np.einsum("mi,mi->m", way, way))
     aside = way - length[:, None] * course
     return np.sqrt(np.einsum("mi,mi->m", aside, aside))
-
-
-def smoothstep(low: float, high: float, value: Floats) -> Floats:
-    """0 below ``low``, 1 above ``high``, and smooth between."""
-    t = np.clip((value - low) / (high - low), 0.0, 1.0)
-    return t * t * (3 - 2 * t)

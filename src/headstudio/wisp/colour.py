@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats, Ints
+from ..head.smooth import smoothstep
 from .melanin import NATURAL, melanin_colour
 from .settings import HairColourSettings
 
@@ -58,8 +59,7 @@ def strand_colours(settings: HairColourSettings, wisp: Ints, wisps: int, points:
     rgb[gray] = np.clip(encode_srgb(_UNPIGMENTED) + shade[gray], 0.0, 1.0)
     root = decode_srgb(rgb).astype(np.float32)
     along = np.linspace(0.0, 1.0, points)
-    part = np.clip((along - settings.tip_start) / max(1.0 - settings.tip_start, 1e-6), 0.0, 1.0)
-    turned = (settings.tip_amount * part * part * (3 - 2 * part)).astype(np.float32)
+    turned = settings.tip_amount * smoothstep(along, settings.tip_start, max(1.0, settings.tip_start + 1e-6))
     colours = np.empty((len(wisp), points, 3), dtype=np.float32)
     colours[:] = root[:, None]
     if settings.tip_amount > 0:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats
+from ..head.smooth import smoothstep
 
 # Where hair meets an ear from before, in proportions of the head: from nowhere to everywhere, and back to nowhere.
 _BESIDE = (0.55, 0.8)
@@ -30,14 +31,9 @@ def at_ears(places: Floats) -> NDArray[np.bool_]:
 
 def before_ears(places: Floats) -> Floats:
     """How much an ear is in the way of hair that goes back from ``places``, in proportions, (k, 3): 0 to 1, (k,)."""
-    beside = _ramp(np.abs(places[:, 0]), *_BESIDE)
+    beside = smoothstep(np.abs(places[:, 0]), *_BESIDE)
     return beside * _window(places[:, 1], *_HEIGHT) * _window(places[:, 2], *_DEPTH)
 
 
-def _ramp(value: Floats, start: float, end: float) -> Floats:
-    part = np.clip((value - start) / (end - start), 0.0, 1.0)
-    return part * part * (3.0 - 2.0 * part)
-
-
 def _window(value: Floats, low: float, from_: float, to: float, high: float) -> Floats:
-    return _ramp(value, low, from_) * (1.0 - _ramp(value, to, high))
+    return smoothstep(value, low, from_) * (1.0 - smoothstep(value, to, high))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..head.mesh import Floats, Ints
 from ..head.rows import row_dot, row_unit
+from ..head.smooth import smoothstep
 from .hairdressing import Grip, grip_of
 from .operations import Operation
 from .outlines import Outlines
@@ -81,7 +82,7 @@ class Elastic:
         apart = np.sqrt(row_dot(across, across)) / np.float32(self.radius)
         # Smoothly to the ring for all that is near, and not at all for what passes by.
         ringed = (1.0 + apart**_EDGE) ** (-1.0 / _EDGE)
-        strength = _smooth(nearness) * _smooth(np.clip((_PAST - apart) / (_PAST - _PASSING), 0.0, 1.0))
+        strength = smoothstep(nearness) * smoothstep(apart, _PAST, _PASSING)
         points[mine[strand], place] += (strength * (ringed - 1.0))[:, None] * across
         return points
 
@@ -102,7 +103,3 @@ def elastics_of(
         if grip is not None:
             elastics.append(Elastic.around(outlines, grip, wisps))
     return tuple(reversed(elastics))
-
-
-def _smooth(part: Singles) -> Singles:
-    return part * part * (3.0 - 2.0 * part)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..head.mesh import Floats
 from ..head.scalp_settings import GrayImage
+from ..head.smooth import smoothstep
 from .settings import FacialHairSettings, WispSettings
 from .styling_settings import StylingSettings
 
@@ -80,20 +81,17 @@ def _map(name: str) -> GrayImage:
     return GrayImage(_PATTERNS[name](np.abs(2 * u - 1), v).astype(np.float32))
 
 
-def _ramp(value: Floats, start: float, end: float) -> Floats:
-    part = np.clip((value - start) / (end - start), 0.0, 1.0)
-    return part * part * (3 - 2 * part)
-
-
 def _soft_edge(aside: Floats, v: Floats) -> Floats:
-    return _ramp(v, 0.0, 0.25) * _ramp(1 - v, 0.0, 0.12)
+    return smoothstep(v, 0.0, 0.25) * smoothstep(1 - v, 0.0, 0.12)
 
 
 # Over (how far from the middle, v).
 _PATTERNS = {
     "even": lambda aside, v: np.ones_like(v),
     "soft edge": _soft_edge,
-    "chin only": lambda aside, v: _ramp(-aside, -0.42, -0.34) * _soft_edge(aside, v),
+    "chin only": lambda aside, v: smoothstep(-aside, -0.42, -0.34) * _soft_edge(aside, v),
     # Longest below the chin, short in front of the ears.
-    "chin": lambda aside, v: (0.25 + 0.75 * _ramp(1 - aside, 0.2, 0.85)) * (0.6 + 0.4 * _ramp(1 - v, 0.1, 0.6)),
+    "chin": lambda aside, v: (
+        (0.25 + 0.75 * smoothstep(1 - aside, 0.2, 0.85)) * (0.6 + 0.4 * smoothstep(1 - v, 0.1, 0.6))
+    ),
 }

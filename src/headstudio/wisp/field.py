@@ -10,6 +10,7 @@ import numpy as np
 
 from ..head.mesh import Floats
 from ..head.rows import row_unit
+from ..head.smooth import smoothstep
 from .ears import before_ears
 from .grid import Grid
 from .strands import Singles
@@ -56,8 +57,7 @@ def _along(places: Floats, x: float, y: float, z: float) -> Floats:
 
 def _fade(value: Floats, start: float, end: float) -> Floats:
     """1 before ``start``, 0 after ``end``, smooth between, as a column."""
-    part = np.clip((value - start) / (end - start), 0.0, 1.0)[:, None]
-    return 1.0 - part * part * (3.0 - 2.0 * part)
+    return smoothstep(value, end, start)[:, None]
 
 
 def _gravity(places: Floats, styling: StylingSettings) -> Floats:

@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 from ..head.mesh import Floats, Ints
 from ..head.scalp import Scalp
 from ..head.scalp_curves import SPACING
+from ..head.smooth import smoothstep
 from .strands import Singles
 
 _FINEST = 0.2  # of a shaft at the border, as a part of its thickness elsewhere
@@ -25,7 +26,7 @@ def fineness(scalp: Scalp, roots: Floats, breadth: float, seed: int) -> Singles:
     near, within = _within(scalp, roots, breadth)
     stray = 2.0 * np.random.default_rng([seed, 6]).random(len(roots))[near] - 1.0
     fine = np.ones(len(roots), dtype=np.float32)
-    fine[near] = _FINEST + (1.0 - _FINEST) * _smooth(within + _STRAY * stray)
+    fine[near] = _FINEST + (1.0 - _FINEST) * smoothstep(within + _STRAY * stray)
     return fine
 
 
@@ -36,7 +37,7 @@ def thinning(scalp: Scalp, places: Floats, breadth: float) -> Floats:
     """
     near, within = _within(scalp, places, breadth)
     density = np.ones(len(places))
-    density[near] = _SPARSEST + (1.0 - _SPARSEST) * _smooth(within)
+    density[near] = _SPARSEST + (1.0 - _SPARSEST) * smoothstep(within)
     return density
 
 
@@ -54,8 +55,3 @@ def _within(scalp: Scalp, places: Floats, breadth: float) -> tuple[Ints, Floats]
     near = np.flatnonzero(np.isfinite(within))
     wander = sum(np.sin(places[near] / wave).sum(axis=1) for wave in _WAVES) / (3 * len(_WAVES))
     return near, within[near] + _WANDER * wander
-
-
-def _smooth(part: Floats) -> Floats:
-    part = np.clip(part, 0.0, 1.0)
-    return part * part * (3.0 - 2.0 * part)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..head.mesh import Floats
 from ..head.scalp_settings import GrayImage
+from ..head.smooth import smoothstep
 from .settings import WispSettings
 
 SIZE = 256
@@ -42,12 +43,6 @@ def _drawn(kind: str, name: str) -> GrayImage:
     return GrayImage(np.broadcast_to(_PATTERNS[kind][name](u, v), u.shape).astype(np.float32))
 
 
-def _ramp(value: Floats, start: float, end: float) -> Floats:
-    """0 before ``start``, 1 after ``end``, smooth between."""
-    part = np.clip((value - start) / (end - start), 0.0, 1.0)
-    return part * part * (3 - 2 * part)
-
-
 def _aside(u: Floats) -> Floats:
     """How far from the middle line: 0 in the middle, 1 at the ears."""
     return np.abs(2 * u - 1)
@@ -55,18 +50,18 @@ def _aside(u: Floats) -> Floats:
 
 def _top(u: Floats, v: Floats, width: float, back: float, soft: float = 0.12) -> Floats:
     """1 on top of the head, as far aside as ``width`` and as far back as ``back``, 0 around it."""
-    return _ramp(-_aside(u), -width - soft, -width + soft) * _ramp(-v, -back - soft, -back + soft)
+    return smoothstep(-_aside(u), -width - soft, -width + soft) * smoothstep(-v, -back - soft, -back + soft)
 
 
 def _temples(u: Floats, v: Floats) -> Floats:
     """1 in the bays beside the forehead, where a hairline recedes."""
     bay = np.exp(-(((_aside(u) - 0.42) / 0.16) ** 2) - (v / 0.2) ** 2)
-    return _ramp(bay, 0.25, 0.6)
+    return smoothstep(bay, 0.25, 0.6)
 
 
 def _crown(u: Floats, v: Floats) -> Floats:
     """1 around the whorl, 0 away from it."""
-    return _ramp(-np.hypot(1.2 * (u - 0.5), v - 0.42), -0.24, -0.12)
+    return smoothstep(-np.hypot(1.2 * (u - 0.5), v - 0.42), -0.24, -0.12)
 
 
 def _even(u: Floats, v: Floats) -> Floats:
@@ -80,14 +75,14 @@ _DENSITY: Mapping[str, Pattern] = {
     "bald crown": lambda u, v: 1 - _crown(u, v),
     "undercut": lambda u, v: 0.3 + 0.7 * _top(u, v, 0.42, 0.5, 0.03),
     "mohawk": lambda u, v: _top(u, v, 0.13, 1.2, 0.03),
-    "monk": lambda u, v: 1 - _ramp(-np.hypot(u - 0.5, 0.9 * (v - 0.34)), -0.33, -0.31),
+    "monk": lambda u, v: 1 - smoothstep(-np.hypot(u - 0.5, 0.9 * (v - 0.34)), -0.33, -0.31),
 }
 
 
 def _fringe(u: Floats, v: Floats) -> Floats:
     # A fringe ends at the brows: what stands further back may be longer by the way it has to go.
-    over_forehead = 0.2 + 0.2 * _ramp(v, 0.03, 0.2)
-    kept = np.maximum(_ramp(v, 0.14, 0.3), _ramp(_aside(u), 0.42, 0.6))
+    over_forehead = 0.2 + 0.2 * smoothstep(v, 0.03, 0.2)
+    kept = np.maximum(smoothstep(v, 0.14, 0.3), smoothstep(_aside(u), 0.42, 0.6))
     return over_forehead + (1 - over_forehead) * kept
 
 
@@ -100,12 +95,12 @@ def _bob(u: Floats, v: Floats) -> Floats:
 def _round(u: Floats, v: Floats) -> Floats:
     # Cut to a ball: hair that stands at the rim of the scalp would reach out over face, ears and nape.
     rim = np.minimum(np.minimum(v, 1 - v), 0.5 - np.abs(u - 0.5))
-    return 0.42 + 0.58 * _ramp(rim, 0.0, 0.3)
+    return 0.42 + 0.58 * smoothstep(rim, 0.0, 0.3)
 
 
 def _short_back_and_sides(u: Floats, v: Floats) -> Floats:
     top = _top(u, v, 0.42, 0.48, 0.22)
-    return 0.14 + 0.16 * (1 - _ramp(np.maximum(_aside(u), v), 0.45, 0.95)) + 0.7 * top
+    return 0.14 + 0.16 * (1 - smoothstep(np.maximum(_aside(u), v), 0.45, 0.95)) + 0.7 * top
 
 
 _LENGTH: Mapping[str, Pattern] = {
@@ -113,13 +108,13 @@ _LENGTH: Mapping[str, Pattern] = {
     "fringe": _fringe,
     "bob": _bob,
     "round": _round,
-    "layered": lambda u, v: 0.72 + 0.28 * _ramp(v, 0.1, 0.75),
-    "long back": lambda u, v: 0.1 + 0.9 * _ramp(v, 0.3, 0.65),
+    "layered": lambda u, v: 0.72 + 0.28 * smoothstep(v, 0.1, 0.75),
+    "long back": lambda u, v: 0.1 + 0.9 * smoothstep(v, 0.3, 0.65),
     "short back and sides": _short_back_and_sides,
     "top knot": lambda u, v: 0.03 + 0.97 * _top(u, v, 0.5, 0.5, 0.04),
     "undercut": lambda u, v: 0.03 + 0.97 * _top(u, v, 0.42, 0.5, 0.03),
-    "mohawk": lambda u, v: 0.02 + 0.98 * _top(u, v, 0.13, 1.2, 0.03) * (1 - 0.4 * _ramp(v, 0.4, 1.0)),
-    "mullet": lambda u, v: 0.18 + 0.1 * _top(u, v, 0.4, 0.4) + 0.72 * _ramp(v, 0.55, 0.8),
+    "mohawk": lambda u, v: 0.02 + 0.98 * _top(u, v, 0.13, 1.2, 0.03) * (1 - 0.4 * smoothstep(v, 0.4, 1.0)),
+    "mullet": lambda u, v: 0.18 + 0.1 * _top(u, v, 0.4, 0.4) + 0.72 * smoothstep(v, 0.55, 0.8),
     "crop": lambda u, v: 0.5 + 0.5 * _top(u, v, 0.45, 0.45, 0.3),
 }
 

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats
+from ..head.smooth import smoothstep
 from .catmull_rom import catmull_rom_matrix
 from .markov import Singles, synthesise, window_size, without_loose_end
 from .outlines import Outlines
@@ -114,5 +115,4 @@ def _onset(along: Floats, straight: Floats) -> Singles:
     """The part of their size that details have at distances from the root [m], (n,), on strands whose roots are straight
     for a way [m], (W,): (W, n).
     """
-    part = np.clip(along / np.maximum(straight, 1e-9)[:, None], 0.0, 1.0)
-    return (part * part * (3 - 2 * part)).astype(np.float32)
+    return smoothstep(along / np.maximum(straight, 1e-9)[:, None]).astype(np.float32)

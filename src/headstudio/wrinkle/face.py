@@ -10,6 +10,7 @@ from scipy import sparse
 
 from ..head.head import Head, Landmarks, Part
 from ..head.mesh import Floats, Ints
+from ..head.smooth import smoothstep
 from .expressions import BLINK, EXPRESSIONS, JAW_OPEN, Expression
 from .face_settings import FaceSettings
 from .jaw import find_jaw
@@ -254,8 +255,7 @@ def _shares(points: Floats, marks: Landmarks) -> dict[str, Floats]:
     line.sort(key=lambda point: float(point[1]))
     middle = np.interp(points[:, 1], [point[1] for point in line], [point[0] for point in line])
     reach = _SHARED * float(marks.crown[1] - marks.chin[1])
-    part = np.clip(0.5 + 0.5 * (points[:, 0] - middle) / reach, 0.0, 1.0)
-    left = part * part * (3.0 - 2.0 * part)
+    left = smoothstep(points[:, 0] - middle, -reach, reach)
     return {"left": left, "right": 1.0 - left}
 
 

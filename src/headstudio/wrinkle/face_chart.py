@@ -17,6 +17,7 @@ from ..head.head import Head
 from ..head.locate import Locator
 from ..head.mesh import Floats, Ints
 from ..head.rows import row_dot
+from ..head.smooth import smoothstep
 from .bezier import BezierChain, fit_stroke
 from .furrow import Furrow
 from .one_to_one import signed_areas
@@ -149,8 +150,7 @@ class FaceChart:
 
     def _axis_at(self, levels: Floats) -> Floats:
         """Points of the axis at levels [m], (k,): between the ears, and farther back in the neck, (k, 3)."""
-        part = np.clip((self._bend[0] - levels) / (self._bend[0] - self._bend[1]), 0.0, 1.0)
-        depth = self._depths[0] + (self._depths[1] - self._depths[0]) * part**2 * (3.0 - 2.0 * part)
+        depth = self._depths[0] + (self._depths[1] - self._depths[0]) * smoothstep(levels, *self._bend)
         return np.stack([np.zeros_like(levels), levels, depth], axis=1)
 
 

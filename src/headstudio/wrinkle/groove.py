@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
 from ..head.rows import row_dot
+from ..head.smooth import smoothstep
 from .bezier import BezierChain
 from .cross_profile import Section, section_height, section_reach, section_shares, section_slope
 from .furrow import Furrow
@@ -283,8 +284,7 @@ class GrooveBed:
 def faded(groove: Groove, arc: Floats, length: float) -> Floats:
     """How much of a groove is there, swell apart, at lengths along it [m], (k,): 0 at the ends to 1."""
     fade = fade_length(length, groove.width, groove.taper, bool(groove.swell))
-    part = np.clip(np.minimum(arc, length - arc) / fade, 0.0, 1.0)
-    return np.asarray(part**2 * (3 - 2 * part))
+    return smoothstep(np.minimum(arc, length - arc), end=fade)
 
 
 def _free_controls(chain: BezierChain) -> tuple[Ints, Floats]:

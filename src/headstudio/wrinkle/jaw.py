@@ -20,6 +20,7 @@ from ..head.head import Head, Part
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.mouth import lines_mouth
 from ..head.sight import lip_seam, seen_from_front
+from ..head.smooth import smoothstep
 
 # The hinge lies in front of the ear hole by this part of the height of the head.
 _HINGE_FORWARD = 0.05
@@ -78,7 +79,7 @@ def find_jaw(head: Head) -> Jaw:
     forward = forward / np.linalg.norm(forward)
     hinge = 0.5 * (marks.left_tragus + marks.right_tragus) + _HINGE_FORWARD * height * forward
     glide = _GLIDE * height * forward
-    weight = _smooth(_spread(head.skin, _carried(head, hinge, axis)))
+    weight = smoothstep(_spread(head.skin, _carried(head, hinge, axis)))
     return Jaw(hinge, axis, glide, weight, lines_mouth(head.skin, marks))
 
 
@@ -133,8 +134,3 @@ def _spread(skin: TriangleMesh, held: Floats) -> Floats:
     rows = laplacian[free]
     value[free] = splu(rows[:, free].tocsc()).solve(-rows @ value)
     return value
-
-
-def _smooth(value: Floats) -> Floats:
-    """From 0 to 1 without a bend at either end."""
-    return value * value * (3.0 - 2.0 * value)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..head.mesh import Floats
+from ..head.smooth import smoothstep
 from .bezier import BezierChain
 from .cross_profile import section_reach
 from .furrow import Furrow
@@ -122,7 +123,7 @@ class LaidFurrow:
         from_end = np.minimum(arc, self.length - arc)
         part = np.clip(from_end / self.fade_length, 0.0, 1.0)
         rise = 6 * part * (1 - part) / self.fade_length * np.where(arc < 0.5 * self.length, 1.0, -1.0)
-        fade = part**2 * (3 - 2 * part)
+        fade = smoothstep(part)
         swell, change = swelling(arc / self.length, self.furrow.swell)
         fade, rise = swell * fade, swell * rise + fade * change / self.length
         along = np.einsum("kij,kj->ki", mean, tangent)

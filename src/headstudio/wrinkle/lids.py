@@ -16,6 +16,7 @@ from ..head.head import Landmarks, Part
 from ..head.locate import locator
 from ..head.mesh import Floats, Ints, TriangleMesh
 from ..head.rows import row_dot
+from ..head.smooth import smoothstep
 from .vectors import scaled, unit
 
 # Lids turn as one up to this distance, and what is farther than the second rests.
@@ -124,9 +125,11 @@ def find_lids(skin: TriangleMesh, marks: Landmarks, eye: Part) -> Lids | None:
     ahead = away @ forward
     top, bottom = np.interp(column, _COLUMNS, upper), np.interp(column, _COLUMNS, lower)
     meeting = bottom + _MEETING * (top - bottom)
-    thick = _ramp((_THICK[1] - distance / eye.radius) / (_THICK[1] - _THICK[0])) * _ramp(ahead / eye.radius / _FRONT)
-    above = thick * _ramp(1.0 - (angle - top) / _FOLLOWING[0])
-    below = thick * _ramp(1.0 - (bottom - angle) / _FOLLOWING[1])
+    thick = smoothstep((_THICK[1] - distance / eye.radius) / (_THICK[1] - _THICK[0])) * smoothstep(
+        ahead / eye.radius / _FRONT
+    )
+    above = thick * smoothstep(1.0 - (angle - top) / _FOLLOWING[0])
+    below = thick * smoothstep(1.0 - (bottom - angle) / _FOLLOWING[1])
     # A point in the opening itself (a caruncle, the floor of a slit) goes with the lid that it is nearer to.
     is_upper = angle > 0.5 * (top + bottom)
     return Lids(
@@ -193,8 +196,3 @@ def _longest_runs(flags: Floats) -> tuple[Ints, Ints]:
     end = length.argmax(axis=1)
     longest = length[np.arange(len(flags)), end]
     return end + 1 - longest, np.where(longest > 0, end + 1, end + 1 - longest)
-
-
-def _ramp(part: Floats) -> Floats:
-    part = np.clip(part, 0.0, 1.0)
-    return part * part * (3.0 - 2.0 * part)
