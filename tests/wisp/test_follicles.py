@@ -50,6 +50,7 @@ def test_strands_are_as_dense_as_the_map_says(scalp, name):
     roots, wisp = scatter_strands(regions, 40_000, 1)
     # Against even roots that were thinned by the map, counted in 40 cells of the skin: some 100,000 are left, or their own
     # chance would show.
+    # Against even roots that were thinned by the map, counted in 40 cells of the skin: so many that their own chance is small.
     even = scalp.random_points(1_600_000, np.random.default_rng(2))
     density = sample(image, even) * fulness(scalp, None, scalp.points(even))
     expected = scalp.points(even[2 * np.random.default_rng(3).random(len(even)) < density])
