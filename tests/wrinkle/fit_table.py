@@ -1,6 +1,6 @@
 """A table of fits to strange scans: distances before and after, and how near anything could come.
 
-    hs py -m tests.wrinkle.fit_table 1001 1002 1003 [--keep FOLDER] [--head FILE] [--files FILE FILE]
+    python -m tests.wrinkle.fit_table 1001 1002 1003 [--keep FOLDER] [--head FILE] [--files FILE FILE]
 
 Scans are drawn from their number: heads, places, rims, crossings, close parallels. Those from 1 on were looked at while
 the fit was made; those from 201 on were not before the table was made that has them. From 1001 on heads of any age and
