@@ -37,7 +37,7 @@ _PARTICLES_IN_TIME = 4000  # particles times parts that keep up with real time
 # Stiffer hair is turned too far by a part of half a step, and breaks [Pa].
 _MODULUS_CARRIED = 1e6
 # What is left of a solution goes on into the next ones: this is the dearest number of the solver, and pays for itself.
-_TOLERANCE = 1e-2
+_TOLERANCE = 2e-3
 
 
 class ImplicitSolver:
