@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from .model import HairModel
 # Hands take hair to their sides at this rate [1/s], and no faster than this [m/s].
 _PULL = 8.0
 _TOP_SPEED = 0.5
+_LETTING_GO = 0.1  # how fast each hand comes back [m/s]
 _STRAYS = 0.03
 # Hair this close to the scalp is not taken along: it cannot go [m].
 _FREE_LENGTH = 0.05
@@ -40,6 +41,12 @@ class Parting:
         loose = model.arc_length > _FREE_LENGTH
         side = np.where(back & loose, np.where(positions[:, 0] >= 0, 1.0, -1.0), 0.0)
         return cls(normal, width, side)
+
+    def letting_go(self, dt: float) -> Parting | None:
+        """The hands dt [s] later when they come together again, and None when they are. Hair that is drawn back all at once
+        snaps shut: links that were held across the gap are as stiff as any."""
+        width = self.width - 2.0 * _LETTING_GO * dt
+        return replace(self, width=width) if width > 0 else None
 
     def guided(self, positions: Floats, velocities: Floats) -> Floats:
         """Velocities [m/s] of hair that the hands take to their sides, (n, 3): hands are stronger than any link.

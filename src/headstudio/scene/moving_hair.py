@@ -34,7 +34,7 @@ _TOP_SPEED = 60.0  # hair faster than this has exploded [m/s]
 _JUMP = 0.05, math.radians(20)  # what the head may move beyond its velocity in a step before it counts as put elsewhere
 # What changes while hair moves, and all that another process needs to go on from here.
 _MOVING = (
-    "state", "before", "air", "frame", "frame_before", "parting", "last_parting", "_owed", "_saved",
+    "state", "before", "air", "frame", "frame_before", "parting", "last_parting", "_closing", "_owed", "_saved",
     "air_to_hair", "hair_to_air", "timings",
 )  # fmt: skip
 
@@ -63,6 +63,7 @@ class MovingHair:
         self.wind = Wind(model, body, document.hair.seed)
         self.timings: dict[str, float] = {}
         self.parting: Parting | None = None
+        self._closing: Parting | None = None
         self.reset()
 
     @property
@@ -81,7 +82,7 @@ class MovingHair:
         self.before = self.state
         self.air = self.wind.still_air()
         self.frame = self.frame_before = HeadFrame()
-        self.parting = self.last_parting = None
+        self.parting = self.last_parting = self._closing = None
         self._owed = 0.0
         self._saved = _Snapshot(self.state, self.air)
         self.air_to_hair = self.hair_to_air = np.zeros(3)
@@ -139,7 +140,9 @@ class MovingHair:
         self._follow_script()
         state = self._after_jump(self.state, frame, dt)
         air, outside = self._outside_forces(state, frame, dt)
-        now = Circumstances(self.document.lcp, frame, outside, motion, self.parting)
+        now = Circumstances(self.document.lcp, frame, outside, motion, self.parting or self._closing)
+        if self._closing is not None:
+            self._closing = self._closing.letting_go(dt)
         with np.errstate(all="ignore"):
             stepped = self.solver.step(state, now, dt)
         if _is_sound(stepped):
@@ -195,10 +198,11 @@ class MovingHair:
 
     def hold_apart(self, width: float = 0.09) -> None:
         """Part the hair of the back and hold it ``width`` [m] apart, until release()."""
-        self.parting = Parting.take(self.model, self.state.positions, width)
+        self.parting, self._closing = Parting.take(self.model, self.state.positions, width), None
 
     def release(self) -> None:
-        """Let go of the hair. The gap that is left is still measured."""
+        """Let go of the hair: the hands come together. The gap that is left is still measured."""
+        self._closing = self.parting or self._closing
         self.parting, self.last_parting = None, self.parting or self.last_parting
 
 
