@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from headstudio.commands.hair_sources import file_strands
+from headstudio.head.mesh import TriangleMesh
 from headstudio.params import assign
 from headstudio.scene.builder import Builder
 from headstudio.scene.document import Document
@@ -20,6 +21,12 @@ Scene = dict[str, Any]
 
 STRANDS = 15_000
 STYLES = ("bob", "tight-curls", "wavy-lob", "figure-13c", "afro", "ponytail")
+# Scenes with a head of their own: what hair it has, and what head.
+DRESSED: dict[str, tuple[str, dict[str, Any]]] = {
+    "long-gray-mannequin": ("straight-long", {"head.source": "mannequin"}),
+    "braid-auburn-back": ("three-strand-braid", {}),
+    "short-brown-man": ("mens-short", {"head.masculine": 1.0, "head.age": 0.6}),
+}
 
 # The three views that others were given of this hair, in metres and watts.
 SINTEL: Scene = {
@@ -51,6 +58,13 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
     bob, curls, lob, ringlets, afro, ponytail = ({**ours, "strands": str(out / f"{style}.npz")} for style in STYLES)
     curls |= {"target": [0.0, 0.03, 0.0], "fov_degrees": 36.0}
     ringlets |= {"target": [0.0, 0.0, 0.0], "fov_degrees": 36.0}
+    long, braid, short = (
+        {
+            **SINTEL, **SMALL, "head": [str(out / f"{name}.obj")], "strands": str(out / f"{name}.npz"),
+            "hair_radius_root": 0.00025, "hair_radius_tip": 0.0001,
+        }
+        for name in DRESSED
+    )  # fmt: skip
     behind = {"sun_direction": [0.2, 0.5, -0.9], "sun_strength": 4.0, "ambient": 0.1}
     return {
         **views,
@@ -87,12 +101,32 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
             **ponytail, "eye": [-0.75, 0.05, 0.3], "target": [0.0, 0.03, 0.0], "fov_degrees": 16.0,
             "hair_melanin": 0.5, "hair_redness": 1.0, "sun_direction": [-0.8, 0.35, 0.6],
         },
+        # The unseen three of the table.
+        "long-gray-mannequin": {
+            **long, "eye": [-0.5, 0.15, 0.85], "target": [0, -0.02, 0], "fov_degrees": 36.0, "hair_melanin": 0.12,
+            "hair_redness": 0.0, "sun_direction": [0.6, 0.6, 0.5], "sun_strength": 2.5, "ambient": 0.3,
+        },
+        "braid-auburn-back": {
+            **braid, "eye": [0.35, 0.2, -0.85], "target": [0, 0.0, -0.02], "fov_degrees": 32.0, "hair_melanin": 0.6,
+            "hair_redness": 0.9, "sun_direction": [-0.5, 0.5, -0.6], "sun_strength": 3.0, "ambient": 0.2,
+        },
+        "short-brown-man": {
+            **short, "eye": [0.6, 0.2, 0.55], "target": [0, 0.06, 0], "fov_degrees": 28.0, "hair_melanin": 0.85,
+            "hair_redness": 0.3, "sun_direction": [-0.3, 0.7, 0.6], "sun_strength": 2.0, "ambient": 0.35,
+        },
     }  # fmt: skip
 
 
 def write_strands(strands: Strands, path: Path) -> None:
     """Points and counts, for a program that reads nothing else."""
     np.savez(path, points=strands.points, counts=strands.counts)
+
+
+def write_skin(skin: TriangleMesh, path: Path) -> None:
+    """Vertices and faces, as an OBJ."""
+    lines = ["v {:.6f} {:.6f} {:.6f}".format(*vertex) for vertex in skin.vertices]
+    lines += ["f {} {} {}".format(*(face + 1)) for face in skin.faces]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def main(sintel: Path, out: Path) -> None:
@@ -103,10 +137,11 @@ def main(sintel: Path, out: Path) -> None:
     for style in STYLES:
         document = assign(load_style(style).on(Document()), {"wisp.strands": STRANDS})
         write_strands(builder.hairdo(document).strands, out / f"{style}.npz")
-    skin = builder.head(Document().head).skin
-    lines = ["v {:.6f} {:.6f} {:.6f}".format(*vertex) for vertex in skin.vertices]
-    lines += ["f {} {} {}".format(*(face + 1)) for face in skin.faces]
-    (out / "head.obj").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_skin(builder.head(Document().head).skin, out / "head.obj")
+    for name, (style, change) in DRESSED.items():
+        document = assign(load_style(style).on(Document()), {"wisp.strands": STRANDS, **change})
+        write_strands(builder.hairdo(document).strands, out / f"{name}.npz")
+        write_skin(builder.head(document.head).skin, out / f"{name}.obj")
     for name, scene in scenes(sintel, out).items():
         (out / f"{name}.json").write_text(json.dumps(scene, indent=1), encoding="utf-8")
 

@@ -2,8 +2,9 @@
 
 What surrounds a particle is as thick as the hair that it stands for, and gives way when it is pressed. The thesis stops a
 particle at a plane, all at once (eq. 3.20, 3.21), and adds a spring for what gets through (3.24). Here the spring begins
-where the hair touches, with critical damping, and is all there is: it stops hair within its thickness. A stop at no certain
-instant would leave an error in proportion to the step, and the springs of the hair would know of it a step late.
+where the hair touches, with critical damping: it stops hair within its thickness, and is stiffer below the skin. Only what
+no spring stops is stopped as in the thesis (limits.py). A stop at no certain instant leaves an error in proportion to the
+step, and the springs of the hair know of it a step late.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ _BEGINNING = 3.0  # of it: so much of a hair may lie closer to the skin than tha
 _PRESSED = 60.0  # [m/s^2]
 _GIVES = 0.4
 _LEAST_GIVES = 0.001
-_SKIN = 1e5  # k_r of eq. 3.24 for each mass [1/s^2]
+_SKIN = 1e5  # what comes to it below the skin, k_r of eq. 3.24 for each mass [1/s^2]
 _STICKING = 0.005  # hair that would slide more slowly sticks [m/s]
 
 

@@ -59,7 +59,8 @@ def strand_colours(settings: HairColourSettings, wisp: Ints, wisps: int, points:
     rgb[gray] = np.clip(encode_srgb(_UNPIGMENTED) + shade[gray], 0.0, 1.0)
     root = decode_srgb(rgb).astype(np.float32)
     along = np.linspace(0.0, 1.0, points)
-    turned = settings.tip_amount * smoothstep(along, settings.tip_start, max(1.0, settings.tip_start + 1e-6))
+    turn = smoothstep(along, settings.tip_start, max(1.0, settings.tip_start + 1e-6))
+    turned = (settings.tip_amount * turn).astype(np.float32)
     colours = np.empty((len(wisp), points, 3), dtype=np.float32)
     colours[:] = root[:, None]
     if settings.tip_amount > 0:
