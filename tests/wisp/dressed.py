@@ -10,6 +10,8 @@ from headstudio.head.rows import row_unit
 from headstudio.head.scalp import Scalp, grow_scalp
 from headstudio.head.scalp_settings import ScalpSettings
 from headstudio.wisp.deform import deform
+from headstudio.wisp.field import force_field
+from headstudio.wisp.force import ForceField
 from headstudio.wisp.outlines import Outlines
 from headstudio.wisp.styling_settings import StylingSettings
 from headstudio.wisp.surroundings import Surroundings
@@ -48,3 +50,8 @@ def styled(outlines: Outlines, name: str = "mannequin", **settings: object):
 def plain_styling(**settings: object) -> StylingSettings:
     """``settings`` over gravity alone: hair that nobody has parted or taken off the face."""
     return StylingSettings(**{"parted": 0.0, "parting": 0.0, "off_face": 0.0, "off_shoulders": 0.0, **settings})
+
+
+def weight(name: str = "mannequin") -> ForceField:
+    """The force on hair around a head where nothing but gravity pulls."""
+    return force_field(plain_styling(), body(name)[2])

@@ -9,7 +9,7 @@ from headstudio.wisp.operations import Braid, Bun, Tie
 from headstudio.wisp.selection import Selection
 from headstudio.wisp.sweep import closed_tube, tube
 
-from .dressed import body, hair
+from .dressed import body, hair, weight
 
 WORN = [Band(), Pin(), Pin((0.0, 1.2, 0.3), (1.0, 0.0, 0.0)), Ribbon(), HairTie(), HairTie(direction=(0, -1.0, 0))]
 
@@ -51,7 +51,7 @@ def test_ties_and_braids_bring_their_elastics():
     _, scalp, surroundings = body()
     operations = (Tie(colour=(1.0, 0.0, 0.0)), Bun(), Braid(Selection("left")), Tie(Selection("right"), elastic=False))
     outlines = hair(scalp)
-    elastics = elastics_of(operations, outlines, surroundings, scalp.locate(outlines.roots))
+    elastics = elastics_of(operations, outlines, surroundings, weight(), scalp.locate(outlines.roots))
     worn = adorn((Pin(),), elastics, surroundings)
     assert len(worn) == 3
     assert worn[1].colour == (1.0, 0.0, 0.0)

@@ -8,7 +8,7 @@ from headstudio.wisp.hairdressing import queues_of
 from headstudio.wisp.operations import Braid
 from headstudio.wisp.paths import hang, off_skin, outward, sideways
 
-from .dressed import body, hair, styled
+from .dressed import body, hair, styled, weight
 
 PERIOD = 0.08
 
@@ -71,7 +71,7 @@ def test_the_hair_itself_is_braided(groups):
     braid = Braid(groups=groups, length=0.6)
     laid, report = styled(rest, operations=(braid,))
     assert max(queue.too_short for queue in report.queues) < 0.4 * 150 / groups
-    queues = queues_of(braid, surroundings, 0.6)
+    queues = queues_of(braid, surroundings, weight(), 0.6)
     uv = scalp.locate(rest.roots)
     paths = np.stack([queue.constraints[1].trajectory for queue in queues])
     middle = paths.mean(axis=0) if groups % 2 else paths[0]
@@ -99,7 +99,7 @@ def mean_curve(joints: np.ndarray, path: np.ndarray) -> np.ndarray:
 def test_a_rope_that_hangs_beside_the_neck_comes_to_lie_on_the_body():
     surroundings = body()[2]
     knot = off_skin(surroundings, surroundings.proportions.place(np.array([[0.0, 0.0, -1.05]])), 0.015)
-    rope = hang(surroundings, knot[0], outward(surroundings, knot)[0], 0.3, 0.015)
+    rope = hang(surroundings, weight(), knot[0], outward(surroundings, knot)[0], 0.3, 0.015)
     distance = surroundings.distance(rope)
     assert distance.min() > 0.013
     assert distance[-20:].max() < 0.03

@@ -7,6 +7,7 @@ from headstudio.wisp.proportions import Proportions
 from headstudio.wisp.selection import Selection
 
 UNIT = Proportions(np.zeros(3), np.ones(3))
+EARLY = np.linspace(1.0, 0.0, 60, dtype=np.float32)
 UV = np.array([[0.2, 0.5], [0.8, 0.5]])
 
 
@@ -22,7 +23,7 @@ def hanging(count: int = 60, points: int = 32) -> tuple[np.ndarray, np.ndarray]:
 
 def cut(strands, owner, **fields):
     blade = Blade.of(Cut(**fields), UNIT, UV)
-    return cut_strands(strands.copy(), owner, [blade])
+    return cut_strands(strands.copy(), owner, EARLY, [blade])
 
 
 def test_hair_ends_at_the_plane():
@@ -60,10 +61,19 @@ def test_hair_rooted_beyond_the_plane_is_shorn():
     assert np.isfinite(shorn).all()
 
 
+def test_a_ragged_cut_ends_strands_before_its_plane_by_parts_of_it():
+    strands, owner = hanging()
+    shorter = cut(strands, owner, place=(0.0, -0.2, 0.0), normal=(0.0, -1.0, 0.0), ragged=0.03)
+    ends = -0.2 + 0.03 * EARLY
+    reached = strands[:, -1, 1] < ends
+    assert shorter[reached, -1, 1] == pytest.approx(ends[reached], abs=1e-5)
+    assert np.array_equal(shorter[~reached], strands[~reached])
+
+
 def test_cuts_add_up():
     strands, owner = hanging()
     blades = [Blade.of(Cut(place=(0, -y, 0), normal=(0, -1, 0)), UNIT, UV) for y in (0.3, 0.1, 0.2)]
-    assert cut_strands(strands.copy(), owner, blades)[:, -1, 1].min() == pytest.approx(-0.1, abs=1e-4)
+    assert cut_strands(strands.copy(), owner, EARLY, blades)[:, -1, 1].min() == pytest.approx(-0.1, abs=1e-4)
 
 
 def test_a_stroke_of_scissors_cuts_away_from_the_head_as_it_is_seen():
@@ -71,7 +81,7 @@ def test_a_stroke_of_scissors_cuts_away_from_the_head_as_it_is_seen():
     stroke = scissor_stroke(np.array([-0.1, -0.3, 0.1]), np.array([0.1, -0.3, 0.1]), eye, UNIT)
     strands, owner = hanging()
     blade = Blade.of(stroke, UNIT, UV)
-    shorter = cut_strands(strands.copy(), owner, [blade])
+    shorter = cut_strands(strands.copy(), owner, EARLY, [blade])
     # On the plane through the eye and the stroke, at the depth of the hair, a little below the stroke.
     at = -0.3 - 0.1 * (0.1 / 1.9)
     assert shorter[-1, -1, 1] == pytest.approx(at, abs=1e-3)

@@ -10,7 +10,7 @@ from headstudio.wisp.operations import Braid, Bun, Tie
 from headstudio.wisp.outlines import Outlines
 from headstudio.wisp.selection import Selection
 
-from .dressed import body, hair, styled
+from .dressed import body, hair, styled, weight
 
 AXIS = np.array([0.0, 0.6, -0.8])
 MIDDLE = np.array([0.01, 0.02, 0.03])
@@ -103,7 +103,7 @@ def test_a_tie_on_a_head_holds_nearly_all_of_its_hair():
     outlines = hair(scalp, length=0.4)
     tie = Tie()
     laid, _ = styled(outlines, operations=(tie,))
-    (elastic,) = elastics_of((tie,), laid, surroundings, scalp.locate(outlines.roots))
+    (elastic,) = elastics_of((tie,), laid, surroundings, weight(), scalp.locate(outlines.roots))
     before = strands_of(laid)
     after = elastic.pressed(before.copy(), np.arange(len(before)))
     assert elastic.radius <= tie.tolerance
@@ -117,7 +117,21 @@ def test_hair_that_two_operations_select_is_held_by_the_last():
     outlines = hair(scalp)
     uv = scalp.locate(outlines.roots)
     first, last = Tie(), Braid(Selection("left"))
-    held, plaited = elastics_of((first, Bun(Selection("u < 0.1")), last), outlines, surroundings, uv)
+    held, plaited = elastics_of((first, Bun(Selection("u < 0.1")), last), outlines, surroundings, weight(), uv)
     assert not (held.wisps & plaited.wisps).any()
     np.testing.assert_array_equal(plaited.wisps, Selection("left").of(uv))
     np.testing.assert_array_equal(held.wisps, ~plaited.wisps & ~Selection("u < 0.1").of(uv))
+
+
+def test_a_tail_is_round_grows_full_and_lies_on_the_head_below_its_tie():
+    _, scalp, surroundings = body()
+    outlines = hair(scalp, length=0.45)
+    tie = Tie(place=(0.0, 0.6, -0.95))
+    laid, report = styled(outlines, operations=(tie,))
+    assert report.queues[0].too_short < 0.02 * len(outlines.roots)
+    tail = laid.joints[np.arange(len(outlines.roots)), outlines.counts - 8]
+    aside = np.abs(tail[:, 0]).max()
+    assert 1.2 * tie.tolerance < aside < 3.0 * tie.tolerance
+    assert surroundings.distance(tail).max() < 0.09
+    # Behind the head, at every height: no slab to either side with a gap between.
+    assert np.histogram(tail[:, 0], 6, (-aside, aside))[0].min() > 0

@@ -77,7 +77,7 @@ class Constraint(Protocol):
     def judge(self, ends: Floats, lanes: Floats, progress: Progress) -> Progress:
         """Where the wisps stand after that segment."""
 
-    def widest(self, ends: Floats) -> Floats:
+    def widest(self, ends: Floats, progress: Progress) -> Floats:
         """The largest radius of a wisp there [m], (k,)."""
 
 
@@ -117,7 +117,7 @@ class PointConstraint:
         met = progress.met | (self._distance(ends) <= self.tolerance)
         return Progress(progress.along, met, met)
 
-    def widest(self, ends: Floats) -> Floats:
+    def widest(self, ends: Floats, progress: Progress) -> Floats:
         """What fits beside the lane at the point, and more the farther away."""
         return (1 - LANE) * 0.9 * self.tolerance + 0.4 * np.maximum(self._distance(ends) - self.tolerance, 0.0)
 
@@ -170,10 +170,14 @@ class _Path:
     @cached_property
     def samples(self) -> Floats:
         """Points every SAMPLING [m] or a little less, (m, 3)."""
+        return np.stack([self.sampled(self.points[:, k]) for k in range(3)], axis=1)
+
+    def sampled(self, values: Floats) -> Floats:
+        """Values that are known at the points, (n,), at the samples, (m,)."""
         steps = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
         length = np.concatenate([[0.0], np.cumsum(steps)])
         even = np.linspace(0.0, length[-1], max(int(np.ceil(length[-1] / SAMPLING)), 1) + 1)
-        return np.stack([np.interp(even, length, self.points[:, k]) for k in range(3)], axis=1)
+        return np.interp(even, length, values)
 
     @cached_property
     def tangents(self) -> Floats:
@@ -198,30 +202,34 @@ class _Path:
 
 @dataclass(frozen=True, eq=False)
 class TrajectoryConstraint:
-    """Leads hair along a trajectory, a polyline [m], (n, 3), within ``tolerance`` [m]: toward it from outside, along it
-    inside. The two are joined smoothly: a wisp aims at a place a little ahead on its lane.
+    """Leads hair along a trajectory, a polyline [m], (n, 3), within ``tolerance`` [m], one for all of it or one at each of
+    its points, (n,): toward it from outside, along it inside. The two are joined smoothly: a wisp aims at a place a little
+    ahead on its lane.
     """
 
     trajectory: Floats
-    tolerance: float
+    tolerance: float | Floats
     weight: float = 1.0
     path: _Path = field(init=False, repr=False)
+    breadth: Floats = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "path", _Path(np.asarray(self.trajectory, dtype=np.float64)))
+        object.__setattr__(self, "breadth", self.path.sampled(np.broadcast_to(self.tolerance, len(self.trajectory))))
 
     def begin(self, ends: Floats, lanes: Floats) -> Progress:
         """See Constraint."""
-        along = self.path.nearest(ends - self._offset(lanes), within=self.tolerance)
-        met = self._off(ends, lanes, along) <= self.tolerance
+        first = np.zeros(len(ends), dtype=np.int64)
+        along = self.path.nearest(ends - self._offset(lanes, first), within=self.breadth[0])
+        met = self._off(ends, lanes, along) <= self.breadth[along]
         return Progress(along, met, along >= len(self.path.samples) - 1)
 
     def pull(self, ends: Floats, lanes: Floats, progress: Progress, joint: Joint) -> Pull:
         """Along the trajectory, and toward it in the measure of the distance."""
         ahead = round(_AHEAD * joint.segment / SAMPLING)
-        goal = self.path.samples[np.minimum(progress.along + ahead, len(self.path.samples) - 1)]
-        way = goal + self._offset(lanes) - ends
-        astray = np.minimum(self._off(ends, lanes, progress.along) / self.tolerance, 1.0)
+        goal = np.minimum(progress.along + ahead, len(self.path.samples) - 1)
+        way = self.path.samples[goal] + self._offset(lanes, goal) - ends
+        astray = np.minimum(self._off(ends, lanes, progress.along) / self.breadth[progress.along], 1.0)
         psi = ((1.0 + joint.stiffness) * (_TAUT + _ASTRAY * astray))[:, None] * row_unit(
             way, otherwise=self.path.tangents[progress.along]
         )
@@ -229,20 +237,20 @@ class TrajectoryConstraint:
 
     def judge(self, ends: Floats, lanes: Floats, progress: Progress) -> Progress:
         """Met once inside the tolerance; done with at the end of the trajectory."""
-        along = self.path.onward(ends - self._offset(lanes), progress.along, 0.04)
-        met = progress.met | (self._off(ends, lanes, along) <= self.tolerance)
+        along = self.path.onward(ends - self._offset(lanes, progress.along), progress.along, 0.04)
+        met = progress.met | (self._off(ends, lanes, along) <= self.breadth[along])
         # A sample before the last is the end: the last may be nearest to a place beside it only.
         return Progress(along, met, along >= len(self.path.samples) - 2)
 
-    def widest(self, ends: Floats) -> Floats:
+    def widest(self, ends: Floats, progress: Progress) -> Floats:
         """What fits beside the lanes."""
-        return np.full(len(ends), (1 - LANE) * 0.9 * self.tolerance)
+        return (1 - LANE) * 0.9 * self.breadth[progress.along]
 
-    def _offset(self, lanes: Floats) -> Floats:
-        return LANE * self.tolerance * lanes
+    def _offset(self, lanes: Floats, along: NDArray[np.int64]) -> Floats:
+        return LANE * self.breadth[along, None] * lanes
 
     def _off(self, ends: Floats, lanes: Floats, along: NDArray[np.int64]) -> Floats:
-        return np.linalg.norm(ends - self._offset(lanes) - self.path.samples[along], axis=1)
+        return np.linalg.norm(ends - self._offset(lanes, along) - self.path.samples[along], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,7 +283,7 @@ class DirectionConstraint:
         met = progress.met | within
         return Progress(along, met, met & (~within | (along >= len(self.path.samples) - 1)))
 
-    def widest(self, ends: Floats) -> Floats:
+    def widest(self, ends: Floats, progress: Progress) -> Floats:
         """A comb does not press hair together."""
         return np.full(len(ends), np.inf)
 

@@ -20,26 +20,28 @@ _STUBBLE = 0.01
 @dataclass(frozen=True, eq=False)
 class Blade:
     """A cut on one head: a place on the plane [m], (3,), the unit normal that points to what falls, (3,), how far from the
-    place the blade reaches [m], and which wisps it cuts, (W,).
+    place the blade reaches [m], by up to how much strands end before the plane [m], and which wisps it cuts, (W,).
     """
 
     place: Floats
     normal: Floats
     reach: float
+    ragged: float
     wisps: NDArray[np.bool_]
 
     @classmethod
     def of(cls, cut: Cut, proportions: Proportions, uv: Floats) -> Blade:
         """The blade of ``cut`` on the head of ``proportions``, among wisps rooted at (u, v), (W, 2)."""
         normal = np.array(cut.normal, dtype=np.float64)
-        return cls(
-            proportions.place(np.array(cut.place)), normal / np.linalg.norm(normal), cut.reach, cut.selection.of(uv)
-        )
+        place, normal = proportions.place(np.array(cut.place)), normal / np.linalg.norm(normal)
+        return cls(place, normal, cut.reach, cut.ragged, cut.selection.of(uv))
 
-    def kept(self, points: Singles) -> Singles:
-        """What part of each strand the blade leaves, (n,); points of the strands [m], (n, k, 3), k evenly along each."""
+    def kept(self, points: Singles, early: Singles) -> Singles:
+        """What part of each strand the blade leaves, (n,); points of the strands [m], (n, k, 3), k evenly along each. early:
+        what part of the blade's raggedness each ends before the plane, (n,).
+        """
         offset = points - self.place.astype(np.float32)
-        height = offset @ self.normal.astype(np.float32)
+        height = offset @ self.normal.astype(np.float32) + np.float32(self.ragged) * early[:, None]
         crosses = height > 0
         if self.reach < EVERYWHERE:
             crosses &= np.einsum("ijk,ijk->ij", offset, offset) < self.reach**2
@@ -54,14 +56,14 @@ class Blade:
         return np.maximum(part, np.float32(_STUBBLE))
 
 
-def cut_strands(points: Singles, owner: NDArray[np.integer], blades: Sequence[Blade]) -> Singles:
+def cut_strands(points: Singles, owner: NDArray[np.integer], early: Singles, blades: Sequence[Blade]) -> Singles:
     """Strands cut by all ``blades``: points [m], (n, k, 3), of which each strand keeps k, closer together; in place.
 
-    owner: the wisp of every strand, (n,).
+    owner: the wisp of every strand, (n,). early: from 0 to 1, how early a ragged cut ends each, (n,).
     """
     for blade in blades:
         under = np.flatnonzero(blade.wisps[owner])
-        parts = blade.kept(points[under])
+        parts = blade.kept(points[under], early[under])
         shorter = parts < 1.0
         points[under[shorter]] = _shortened(points[under[shorter]], parts[shorter])
     return points

@@ -58,15 +58,15 @@ class Deformer:
         """
         uv, tau = scalp.locate(outlines.roots), styling.density_threshold
         longest = float(outlines.counts.max(initial=0) * outlines.segment)
-        steps = [_members(queues_of(operation, surroundings, longest), uv) for operation in styling.operations]
+        free = replace(styling, operations=(), cuts=(), accessories=())
+        force = force_field(free, surroundings)
+        steps = [_members(queues_of(operation, surroundings, force, longest), uv) for operation in styling.operations]
         # Nobody sees how hair lies that is all picked up at once.
         in_vain = bool(steps) and sum(len(wisps) for _, wisps in steps[0]) == len(uv)
-        free = replace(styling, operations=(), cuts=(), accessories=())
 
         def let_down() -> tuple[Flow, list[QueueReport]]:
             density = DensityField.empty(surroundings, scalp.area, int(outlines.strands.sum()))
-            layers, force = Layers.over(scalp, surroundings), force_field(free, surroundings)
-            flow = Flow(outlines, density, layers, force, styling.bending_stiffness, tau)
+            flow = Flow(outlines, density, Layers.over(scalp, surroundings), force, styling.bending_stiffness, tau)
             if not in_vain:
                 _let_down(flow, uv, tau)
             return flow, []

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..head.mesh import Floats, Ints
 from ..head.rows import row_dot, row_unit
 from ..head.smooth import smoothstep
+from .force import ForceField
 from .hairdressing import Grip, grip_of
 from .operations import Operation
 from .outlines import Outlines
@@ -88,10 +89,10 @@ class Elastic:
 
 
 def elastics_of(
-    operations: Sequence[Operation], outlines: Outlines, surroundings: Surroundings, uv: Floats
+    operations: Sequence[Operation], outlines: Outlines, surroundings: Surroundings, force: ForceField, uv: Floats
 ) -> tuple[Elastic, ...]:
-    """The elastics of ``operations`` around hair as it lies, whose wisps are rooted at (u, v), (W, 2). Hair that several
-    operations select is held by the last.
+    """The elastics of ``operations`` around hair as it lies under ``force``, whose wisps are rooted at (u, v), (W, 2). Hair
+    that several operations select is held by the last.
     """
     longest = float(outlines.counts.max(initial=0) * outlines.segment)
     free = np.ones(len(uv), dtype=bool)
@@ -99,7 +100,7 @@ def elastics_of(
     for operation in reversed(operations):
         wisps = operation.selection.of(uv) & free
         free &= ~wisps
-        grip = grip_of(operation, surroundings, longest)
+        grip = grip_of(operation, surroundings, force, longest)
         if grip is not None:
             elastics.append(Elastic.around(outlines, grip, wisps))
     return tuple(reversed(elastics))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -12,26 +11,14 @@ from ..head.mesh import Floats
 from ..head.rows import row_unit
 from ..head.smooth import smoothstep
 from .ears import before_ears
+from .force import ForceField
 from .grid import Grid
-from .strands import Singles
 from .strokes import follow_strokes
 from .styling_settings import StylingSettings
 from .surroundings import Surroundings
 
 # Fields are smooth over the breadth of a lock, and an artist drags their weights: coarse nodes keep that quick [m].
 _SPACING = 0.02
-
-
-@dataclass(frozen=True, eq=False)
-class ForceField:
-    """Vectors at the nodes of a grid, a column each, (3, size), looked up trilinearly."""
-
-    grid: Grid
-    vectors: Singles
-
-    def at(self, points: Floats) -> Singles:
-        """Phi at ``points`` [m], (k, 3): (k, 3)."""
-        return self.grid.value(self.vectors, points)
 
 
 @lru_cache(maxsize=4)
@@ -149,28 +136,37 @@ def _inward(places: Floats, styling: StylingSettings) -> Floats:
     return -_fade(places[:, 1], -0.6, 0.0) * from_neck / np.maximum(reach, 0.5)
 
 
-# Where the ridge of the shoulders runs, in half depths of the head behind its middle; within a part of this hair does not
-# know yet which way to go.
-_RIDGE, _RIDGE_BREADTH = -0.5, 0.12
-_DECIDED = (0.15, 0.5)  # so far behind the ridge hair is pushed no more, in half depths: it would stand off the back
-_BESIDE_HEAD, _TOGETHER = (1.0, 1.5), 0.45  # half breadths of the head, and how strongly hair keeps together there
-_ON_SHOULDERS = (0.005, 0.045)  # hair nearer to the skin than this lies on it, and hair farther off hangs free [m]
+# Hair nearer to the shoulders than this lies on them, and hair farther off hangs free [m]; and so low it may meet them, in
+# half heights of the head.
+_LYING, _LOW = (0.008, 0.05), (-1.5, -1.0)
+# Over the ridge: how strongly, and from how small a part of the slope's normal along the face to how large a one.
+_OVER, _UNDECIDED, _CREST = 1.2, 0.04, 0.5
+# Of the slope to the side hair follows so much beside the neck, and so much less it is held against it farther out, in half
+# breadths of the head.
+_FANS, _HELD, _BESIDE_HEAD = 0.3, 1.6, (0.7, 1.3)
+# Below the shoulders: how strongly hair is drawn to breast and back that hangs beside them, how far off [m], how low.
+_LEANS, _OFF_BODY, _BELOW = 0.4, (0.005, 0.02, 0.05, 0.1), (-2.0, -1.5)
 
 
 def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Floats:
-    """On top of the shoulders hair does not slide outward, as a thread on a slope would: other hair holds it. It goes on
-    over the breast or down the back, whichever it is nearer to.
+    """Shoulders carry hair from where it comes near: other hair lies below, so it bends along them before it is there.
+
+    It goes on over the breast or down the back, whichever way the slope is, fans out a little, and not more: a thread would
+    slide straight down, and hair is held by other hair. Farther down it lies against the body.
     """
     distance, outward = surroundings.distance_and_gradient(grid.nodes)
-    lying = _fade(distance.astype(np.float64), *_ON_SHOULDERS) * _fade(places[:, 1], -1.5, -1.1)
-    upward = np.clip(outward[:, 1], 0.0, 1.0)
-    beside_ridge = places[:, 2] - _RIDGE
-    side = np.tanh(beside_ridge / _RIDGE_BREADTH) * _fade(-beside_ridge, *_DECIDED)[:, 0]
-    # What gravity leaves along the slope from side to side, and a push across the ridge.
-    across = lying * upward[:, None] * np.stack([-outward[:, 0], 0 * side, side], axis=1)
-    # Down the back hair keeps together: what lies beside the head's breadth is drawn to the rest.
-    astray = (1.0 - _fade(np.abs(places[:, 0]), *_BESIDE_HEAD)) * _fade(places[:, 2], _RIDGE - 0.2, _RIDGE)
-    return across - _TOGETHER * lying * astray * np.stack([np.sign(places[:, 0]), 0 * side, 0 * side], axis=1)
+    # Distances are known around the body, and beyond their grid are those at its border.
+    known = surroundings.skin_grid
+    nearest = np.clip(grid.nodes, known.origin, known.origin + known.spacing * (np.array(known.shape) - 1))
+    off = distance + np.linalg.norm(grid.nodes - nearest, axis=1)
+    upward = np.clip(outward[:, 1:2], 0.0, 1.0).astype(np.float64)
+    carried = upward * outward
+    carried[:, 0] *= (_FANS + _HELD) * _fade(np.abs(places[:, 0]), *_BESIDE_HEAD)[:, 0] - _HELD
+    forward = outward[:, 2].astype(np.float64)
+    carried[:, 2] += _OVER * upward[:, 0] * np.tanh(forward / _UNDECIDED) * np.exp(-((forward / _CREST) ** 2))
+    beside = (1.0 - _fade(off, *_OFF_BODY[:2])) * _fade(off, *_OFF_BODY[2:]) * _fade(places[:, 1], *_BELOW)
+    leans = _LEANS * beside * (1.0 - upward**2) * outward
+    return _fade(off, *_LYING) * _fade(places[:, 1], *_LOW) * carried - leans
 
 
 PRESETS: dict[str, Callable[[Floats, StylingSettings], Floats]] = {

@@ -16,7 +16,7 @@ from ..head.mesh import Floats, Ints
 from .columns import cross, dot, unit
 from .density import DensityField
 from .ears import at_ears
-from .field import ForceField
+from .force import ForceField
 from .joints import bend_toward, joint_stiffness, most_aligned, turn
 from .layers import Layers
 from .outlines import Outlines

@@ -60,6 +60,7 @@ def member_strands(
     count = len(sown.owner)
     lengths = LengthDistribution.of(wisp).sample(np.random.default_rng([wisp.seed, 4]).random(count))
     cuts = Cuts.of(masters, wisp.points)
+    early = np.random.default_rng([wisp.seed, 7]).random(count, dtype=np.float32)
     points = np.empty((count, wisp.points, 3), dtype=np.float32)
     pieces = 2 * math.ceil(count / (2 * _PIECE))
     piece = 2 * math.ceil(count / (2 * pieces)) if count else 1
@@ -74,7 +75,7 @@ def member_strands(
         )
         grown = member_points(masters, cuts, own, offsets, lengths[here])
         # Last of all, since what is cut is drawn anew with straight ways between fewer places.
-        laid = cut_strands(grown, own, blades)
+        laid = cut_strands(grown, own, early[here], blades)
         for elastic in elastics:
             laid = elastic.pressed(laid, own)
         outside = surroundings.keep_outside(laid.reshape(-1, 3), _CLEARANCE).reshape(laid.shape)

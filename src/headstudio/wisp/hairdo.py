@@ -16,6 +16,7 @@ from .colour import strand_colours
 from .cutting import Blade
 from .deform import Deformer, DeformReport
 from .elastics import Elastic, elastics_of
+from .field import force_field
 from .follicles import Regions, spread_wisps
 from .growth import Sown, member_strands
 from .maps import density_map
@@ -172,7 +173,8 @@ class Stylist:
         announce("flow")
         outlines, report = self._deformer.deform(spread.rest, surroundings, styling, scalp)
         uv = scalp.locate(spread.rest.roots)
-        return _Laid(spread, outlines, report, uv, elastics_of(styling.operations, outlines, surroundings, uv))
+        force = force_field(replace(styling, operations=(), accessories=()), surroundings)
+        return _Laid(spread, outlines, report, uv, elastics_of(styling.operations, outlines, surroundings, force, uv))
 
 
 def _spread(scalp: Scalp, wisp: WispSettings, announce: Callable[[str], None]) -> _Spread:

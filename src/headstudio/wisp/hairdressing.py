@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import singledispatch
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..head.mesh import Floats
 from ..head.rows import row_unit
 from .braiding import plait
 from .constraints import Constraint, DirectionConstraint, PointConstraint, TrajectoryConstraint
+from .force import ForceField
 from .operations import AlongPath, Braid, Bun, Constrain, Operation, Place, Step, Tie, ToPoint, Updo
 from .paths import along_skin, hang, off_skin, outward, sideways
 from .queues import Queue
@@ -21,17 +23,35 @@ from .surroundings import Surroundings
 _TAKE_UP, _TO_KNOT = 1.25, 1.0
 _DOWN = np.array([[0.0, -1.0, 0.0]])
 _BRAID_END = 1.2  # within how many radii of a lock the end of a plait is gathered
+_LIES = 0.4  # the middle of a tail lies off the skin by this part of its greatest radius
 _OFF_SKIN = 0.002  # a tie's edge stays so far off the skin [m]
 
 
+class Grown(NamedTuple):
+    """How hair widens behind a tie: full, so many times the tie's radius where it is widest; after, so far from it [m]; thin,
+    at the end.
+    """
+
+    full: float
+    after: float
+    thin: float
+
+
+_TAIL, _TUFT = Grown(4.5, 0.1, 3.0), Grown(2.2, 0.03, 1.0)
+
+
 @singledispatch
-def queues_of(operation: object, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
-    """The queues that carry out ``operation`` on the head of ``surroundings``, on hair of at most ``longest`` [m]."""
+def queues_of(operation: object, surroundings: Surroundings, force: ForceField, longest: float) -> tuple[Queue, ...]:
+    """The queues that carry out ``operation`` on the head of ``surroundings``, on hair of at most ``longest`` [m] that hangs
+    as ``force`` leads it.
+    """
     raise TypeError(f"{operation!r} is no hairdressing operation")
 
 
 @queues_of.register
-def _constrain(operation: Constrain, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+def _constrain(
+    operation: Constrain, surroundings: Surroundings, force: ForceField, longest: float
+) -> tuple[Queue, ...]:
     return (Queue(operation.selection, tuple(_constraint(step, surroundings) for step in operation.steps)),)
 
 
@@ -46,32 +66,51 @@ def _constraint(step: Step, surroundings: Surroundings) -> Constraint:
 
 
 @queues_of.register
-def _tie(operation: Tie, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+def _tie(operation: Tie, surroundings: Surroundings, force: ForceField, longest: float) -> tuple[Queue, ...]:
     point, away = _knot(surroundings, operation.place, operation.tolerance)
-    constraints: list[Constraint] = [PointConstraint(point, operation.tolerance, operation.weight, surroundings)]
-    if operation.lift > 0:
-        stand = np.array([point, point + operation.lift * away])
-        constraints.append(TrajectoryConstraint(stand, operation.tolerance, operation.weight))
-    return (Queue(operation.selection, tuple(constraints)),)
+    gather = PointConstraint(point, operation.tolerance, operation.weight, surroundings)
+    tail = _tail(point + operation.lift * away, away, operation.tolerance, surroundings, force, longest)
+    tail = np.concatenate([point[None], tail])
+    breadth = _breadth(tail, operation.tolerance, _TAIL)
+    return (Queue(operation.selection, (gather, TrajectoryConstraint(tail, breadth, operation.weight))),)
+
+
+def _tail(
+    start: Floats, away: Floats, radius: float, surroundings: Surroundings, force: ForceField, length: float
+) -> Floats:
+    """Where the middle of a tail hangs that leaves a tie of ``radius`` [m]: (n, 3) [m]."""
+    return hang(surroundings, force, start, away, length, _LIES * _TAIL.full * radius)
+
+
+def _breadth(path: Floats, radius: float, grown: Grown) -> Floats:
+    """The radius of a tail [m], (n,), along its path, (n, 3) [m]: hair that a tie of ``radius`` [m] pressed grows full, and
+    thins to its end.
+    """
+    run = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    return radius * np.interp(run, [0.0, grown.after, run[-1]], [1.0, grown.full, grown.thin])
 
 
 @queues_of.register
-def _braid(operation: Braid, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
-    """A point, then one of the interleaved trajectories for every group, then the tie at the end."""
+def _braid(operation: Braid, surroundings: Surroundings, force: ForceField, longest: float) -> tuple[Queue, ...]:
+    """A point, then one of the interleaved trajectories for every group, then the tie at the end and a tuft behind it."""
     thickness = operation.thickness
-    knot, middle = _braid_path(operation, surroundings, longest)
+    knot, middle = _braid_path(operation, surroundings, force, longest)
     side, front = sideways(surroundings, middle)
     width = 0.31 * thickness * operation.groups
     locks = plait(middle, side, front, operation.groups, width, 0.55 * thickness, operation.period)
     gather = PointConstraint(knot, 1.5 * thickness, 1.0, surroundings)
     end = PointConstraint(middle[-1], _BRAID_END * thickness)
+    tuft = hang(surroundings, force, middle[-1], middle[-1] - middle[-2], longest, 1.5 * thickness)
+    loose = TrajectoryConstraint(tuft, _breadth(tuft, _BRAID_END * thickness, _TUFT))
     return tuple(
-        Queue(operation.selection, (gather, TrajectoryConstraint(lock, thickness), end), part, operation.groups)
+        Queue(operation.selection, (gather, TrajectoryConstraint(lock, thickness), end, loose), part, operation.groups)
         for part, lock in enumerate(locks)
     )
 
 
-def _braid_path(operation: Braid, surroundings: Surroundings, longest: float) -> tuple[Floats, Floats]:
+def _braid_path(
+    operation: Braid, surroundings: Surroundings, force: ForceField, longest: float
+) -> tuple[Floats, Floats]:
     """Where a braid starts [m], (3,), and the path it lies on [m], (n, 3)."""
     knot, away = _knot(surroundings, operation.place, 1.5 * operation.thickness)
     clearance = 1.5 * operation.thickness
@@ -79,11 +118,13 @@ def _braid_path(operation: Braid, surroundings: Surroundings, longest: float) ->
         return knot, along_skin(surroundings, np.array(operation.path), clearance)
     # The way to the knot takes some of the hair, and a plait is shorter than its locks.
     rest = max(longest - _TO_KNOT * float(np.linalg.norm(surroundings.proportions.extent)), 0.3 * longest)
-    return knot, hang(surroundings, knot, away, operation.length * rest / _TAKE_UP, clearance)
+    # A plait begins flat on the head.
+    flat = row_unit(_DOWN - (_DOWN @ away) * away, otherwise=_DOWN)[0]
+    return knot, hang(surroundings, force, knot, flat, operation.length * rest / _TAKE_UP, clearance)
 
 
 @queues_of.register
-def _bun(operation: Bun, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+def _bun(operation: Bun, surroundings: Surroundings, force: ForceField, longest: float) -> tuple[Queue, ...]:
     knot, away = _knot(surroundings, operation.place, operation.thickness)
     coil = _coil(knot, away, operation.radius, operation.thickness, longest)
     gather = PointConstraint(knot, operation.thickness, 1.0, surroundings)
@@ -91,7 +132,7 @@ def _bun(operation: Bun, surroundings: Surroundings, longest: float) -> tuple[Qu
 
 
 @queues_of.register
-def _updo(operation: Updo, surroundings: Surroundings, longest: float) -> tuple[Queue, ...]:
+def _updo(operation: Updo, surroundings: Surroundings, force: ForceField, longest: float) -> tuple[Queue, ...]:
     knot, away = _knot(surroundings, operation.place, operation.thickness)
     gather = PointConstraint(knot, 1.5 * operation.thickness, 1.0, surroundings)
     angles = 2.0 * np.pi * (np.arange(operation.loops) + 0.5) / operation.loops
@@ -118,13 +159,13 @@ class Grip:
     colour: tuple[float, float, float] | None
 
 
-def grip_of(operation: Operation, surroundings: Surroundings, longest: float) -> Grip | None:
+def grip_of(operation: Operation, surroundings: Surroundings, force: ForceField, longest: float) -> Grip | None:
     """Where ``operation`` holds hair of at most ``longest`` [m] together as an elastic does; None when it does not."""
     if isinstance(operation, Tie):
         point, away = _knot(surroundings, operation.place, operation.tolerance)
         return Grip(point, away, operation.tolerance, operation.colour if operation.elastic else None)
     if isinstance(operation, Braid):
-        middle = _braid_path(operation, surroundings, longest)[1]
+        middle = _braid_path(operation, surroundings, force, longest)[1]
         axis = row_unit((middle[-1] - middle[-3])[None], otherwise=_DOWN)[0]
         colour = operation.colour if operation.elastic else None
         return Grip(middle[-1], axis, _BRAID_END * operation.thickness, colour)

@@ -139,3 +139,12 @@ class Cut:
     reach: float = number(
         EVERYWHERE, "Reach", "m", 0.005, EVERYWHERE, "How far from its place the blade cuts; 2 m is all hair.", log=True
     )
+    ragged: float = number(
+        0.0,
+        "Ragged",
+        "m",
+        0.0,
+        0.1,
+        "By up to how much strands end before the plane, each by another part of it: scissors held along the hair.",
+        shown="mm",
+    )

@@ -20,6 +20,7 @@ _LINES: Mapping[str, CurvePoints] = {
     "left": ((0.63, 0.0), (0.6, 0.22), (0.54, 0.42)),
     "right": ((0.37, 0.0), (0.4, 0.22), (0.46, 0.42)),
     "zigzag": ((0.5, 0.0), (0.54, 0.06), (0.46, 0.13), (0.54, 0.2), (0.46, 0.27), (0.54, 0.34), (0.5, 0.42)),
+    "to nape": ((0.5, 0.0), (0.5, 1.0)),
 }
 _SPACING = 0.001  # between the points that stand for the line [m]
 # Skin this near to the line is told apart by its side [m].

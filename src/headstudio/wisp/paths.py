@@ -8,12 +8,14 @@ from scipy.ndimage import gaussian_filter1d
 from ..head.mesh import Floats
 from ..head.rows import row_unit
 from ..head.scalp_curves import catmull_rom
+from .force import ForceField
 from .surroundings import Surroundings
 
 _APPROACHES = 5
 STEP = 0.005  # between the points of a path [m]
 # A plait beside the body comes to lie on it: how strongly it is drawn there against its weight, and from how far [m].
-_TO_BODY, _BESIDE = 0.6, 0.08
+_TO_BODY, _BESIDE = 0.5, 0.08
+_TURN = 0.35  # how fast a rope gives way to what pulls it, in a step
 
 
 def off_skin(surroundings: Surroundings, points: Floats, clearance: float) -> Floats:
@@ -34,9 +36,11 @@ def outward(surroundings: Surroundings, points: Floats) -> Floats:
     return surroundings.gradient(points).astype(np.float64)
 
 
-def hang(surroundings: Surroundings, start: Floats, first: Floats, length: float, clearance: float) -> Floats:
-    """The path of a rope of ``length`` [m] that leaves ``start`` [m] in direction ``first``, (3,) each, falls in a bow and
-    lies on the body no nearer than ``clearance`` [m]: (n, 3).
+def hang(
+    surroundings: Surroundings, force: ForceField, start: Floats, first: Floats, length: float, clearance: float
+) -> Floats:
+    """The path of a rope of ``length`` [m] that leaves ``start`` [m] in direction ``first``, (3,) each, falls in a bow as
+    ``force`` leads it and lies on the body no nearer than ``clearance`` [m]: (n, 3).
     """
     down = np.array([0.0, -1.0, 0.0])
     points = [np.asarray(start, dtype=np.float64)]
@@ -44,8 +48,8 @@ def hang(surroundings: Surroundings, start: Floats, first: Floats, length: float
     for _ in range(max(round(length / STEP), 1)):
         distance, away = surroundings.distance_and_gradient(points[-1][None])
         beside = 1.0 - min(max(float(distance[0]) - clearance, 0.0) / _BESIDE, 1.0)
-        pull = down - _TO_BODY * beside * away[0]
-        direction = row_unit((direction + 0.25 * pull)[None], otherwise=down[None])[0]
+        pull = force.at(points[-1][None])[0] - _TO_BODY * beside * away[0]
+        direction = row_unit((direction + _TURN * pull)[None], otherwise=down[None])[0]
         free = off_skin(surroundings, (points[-1] + STEP * direction)[None], clearance)[0]
         direction = row_unit((free - points[-1])[None], otherwise=down[None])[0]
         points.append(points[-1] + STEP * direction)

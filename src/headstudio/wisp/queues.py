@@ -108,9 +108,9 @@ class QueueRun:
             return
         wisps, flow = self.wisps[active], self._flow
         constraint = self._queue.constraints[self._step]
-        flow.narrow(wisps, constraint.widest(flow.ends[wisps]))
-        self._pressed[active] = np.maximum(flow.density_at_ends(wisps), self._tau)
         progress = _part(self._progress, active)
+        flow.narrow(wisps, constraint.widest(flow.ends[wisps], progress))
+        self._pressed[active] = np.maximum(flow.density_at_ends(wisps), self._tau)
         _put(self._progress, active, constraint.judge(flow.ends[wisps], self._lanes[active], progress))
 
     def _begin(self) -> Progress | None:

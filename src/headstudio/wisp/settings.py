@@ -30,7 +30,7 @@ LENGTH_MAPS = (
     "crop",
 )
 PROTRUSION_MAPS = ("flat", "natural", "lifted front", "full crown", "standing")
-PARTINGS = ("none", "centre", "left", "right", "zigzag")
+PARTINGS = ("none", "centre", "left", "right", "zigzag", "to nape")
 FACIAL_HAIR = ("none", "stubble", "moustache", "goatee", "beard", "full beard")
 PIGMENTS = (
     "black",

@@ -71,7 +71,9 @@ class StylingSettings:
     off_face: float = _weight(1.6, "Off the face", "Weight of the push from the face to the sides.")
     inward: float = _weight(0.0, "Inward", "Weight of the pull toward the neck, which turns the tips of a bob in.")
     off_shoulders: float = _weight(
-        1.9, "Off the shoulders", "Weight of the push from the top of the shoulders over the breast and down the back."
+        1.0,
+        "Off the shoulders",
+        "Weight with which shoulders carry hair, and lead it over the breast or down the back.",
     )
     stroke_reach: float = number(
         0.06, "Stroke reach", "m", 0.01, 0.3, "How far around a drawn stroke hair still follows it.", shown="cm"
