@@ -195,8 +195,8 @@ def _grow(
 ) -> _Grown:
     """Grow the strands that are sown around the masters of wisps that lie."""
     announce("strands")
-    details = synthesise_details(laid.spread.rest, wisp)
     outlines = laid.outlines
+    details = synthesise_details(laid.spread.rest, wisp, outlines)
     controls = master_controls(outlines, details)
     masters = Masters(
         controls, details.per_segment, outlines.radii.astype(np.float32), laid.spread.lengths / outlines.segment

@@ -44,6 +44,16 @@ def without_loose_end(prototype: Floats, window: int) -> Floats:
     return prototype[: window + int(cost.argmin())]
 
 
+def reached(prototype: Floats, window: int, steps: Ints) -> Ints:
+    """Which detail of the prototype, (m, 3), a chain of temperature 0 takes after so many steps from its first, (W,): from
+    window to m - 1. At its end it goes on where the nearest window is.
+    """
+    windows = _windows(prototype, window)
+    again = window + int(_squared_distances(windows[:-1], windows[-1:])[:, 0].argmin())
+    beyond = window + steps - len(prototype)
+    return np.where(beyond < 0, window + steps, again + beyond % (len(prototype) - again))
+
+
 def synthesise(
     prototype: Floats, window: int, temperature: float, starts: Ints, count: int, rng: np.random.Generator
 ) -> Singles:

@@ -11,7 +11,8 @@ from scipy.spatial import cKDTree
 from ..head.mesh import Floats
 from ..head.smooth import smoothstep
 from .catmull_rom import catmull_rom_matrix
-from .markov import Singles, synthesise, window_size, without_loose_end
+from .in_step import InStep
+from .markov import Singles, reached, synthesise, window_size, without_loose_end
 from .outlines import Outlines
 from .parting import unit
 from .prototypes import prototype_of
@@ -35,8 +36,9 @@ class Details:
     per_segment: int
 
 
-def synthesise_details(outlines: Outlines, settings: WispSettings) -> Details:
-    """Give every master strand details of its own after the prototype.
+def synthesise_details(outlines: Outlines, settings: WispSettings, laid: Outlines | None = None) -> Details:
+    """Give every master strand details of its own after the prototype. laid: the outlines as they lie, where they do:
+    locks that wave together are then in step with what lies beside them, and not with what is rooted beside them.
 
     Curls have their pitch in metres, on short hair and on long. Where it is short, details lie closer than joints; the
     outline between joints is interpolated. At the root there are none, and they reach their size along the straight
@@ -53,13 +55,19 @@ def synthesise_details(outlines: Outlines, settings: WispSettings) -> Details:
     samples = without_loose_end(samples, window)
     rng = np.random.default_rng([settings.seed, 2])
     loose = 1.0 - settings.alignment
-    phase = np.asarray(loose * rng.random(wisps))
-    starts = window + (phase * (len(samples) - window)).astype(np.int64)
+    pitch = prototype.pitch / spacing
+    # Out of step by a part of a turn, and by whole turns, which are not quite the same in a prototype that wanders.
+    turns = np.rint(loose * rng.random(wisps) * (len(samples) - window) / pitch) + loose * rng.random(wisps)
+    step = None if laid is None or loose == 1.0 or wisps == 0 else InStep.along(laid)
+    come = turns * pitch + (0.0 if step is None else step.come / spacing)
+    starts = reached(samples, window, np.rint(np.maximum(come, 0.0)).astype(np.int64))
     offsets = synthesise(samples, window, settings.temperature, starts, per_segment * joints + 1, rng)
     spin = np.asarray(loose * rng.uniform(-math.pi, math.pi, wisps))
     # Curls turn left or right as it comes. One prototype turns one way, and half of the locks are its mirror images.
     offsets[..., 0] *= np.where(_patches(outlines.roots, rng) < 0.5 * loose, -1, 1).astype(np.float32)[:, None]
     offsets = _spun(offsets, spin)
+    if step is not None:
+        offsets[..., 0] *= step.side.astype(np.float32)[:, None]
     along: Floats = spacing * np.arange(offsets.shape[1], dtype=np.float64)
     sooner, later = _SOONER_OR_LATER
     straight = np.asarray(settings.straight_roots * rng.uniform(sooner, later, wisps))
