@@ -46,3 +46,17 @@ def test_curls_begin_sooner_and_later():
 def test_no_curl_stands_off_its_root(straight):
     _, offsets = curls(straight_roots=straight)
     np.testing.assert_allclose(offsets[:, 0], 0.0, atol=1e-9)
+
+
+def test_curls_of_one_lock_are_larger_than_those_of_another_all_along_it():
+    _, alike = curls(straight_roots=0.0)
+    _, various = curls(straight_roots=0.0, curl_variety=0.4)
+    half = alike.shape[1] // 2
+
+    def spread(offsets):
+        """How far sizes differ from lock to lock, and how nearly the halves of a lock agree."""
+        sizes = [np.log(np.linalg.norm(part[..., :2], axis=2).max(axis=1)) for part in (offsets[:, 1:half], offsets[:, half:])]
+        return np.std(sizes[1]), np.corrcoef(*sizes)[0, 1]
+
+    assert spread(various)[0] > spread(alike)[0] + 0.2
+    assert spread(various)[1] > 0.9

@@ -1,4 +1,4 @@
-"""Accessories, as an artist writes them down and as meshes. They do not touch the hair (Choe, Ko 2005, section 6.2)."""
+"""Accessories, as an artist writes them down and as meshes (Choe, Ko 2005, section 6.2). Only bands press on hair."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from ..head.mesh import Floats, TriangleMesh
 from ..head.rows import row_unit
+from ..head.smooth import smoothstep
 from ..params import colour, number
 from .operations import Place
 from .paths import STEP, along_skin, at_height, off_skin, outward, sideways
@@ -17,6 +18,7 @@ from .surroundings import Surroundings
 from .sweep import closed_tube, joined, ribbon_strip, tube
 
 _BAND_BOW = 0.015  # over which a band is smooth [m]
+_NARROW, _TAPER = 0.35, 0.08  # a band's width at its ends, as a part of that on top, and how far up it tapers [m]
 
 
 @dataclass(frozen=True)
@@ -70,19 +72,26 @@ def accessory_mesh(accessory: object, surroundings: Surroundings) -> TriangleMes
     raise TypeError(f"{accessory!r} is no accessory")
 
 
-@accessory_mesh.register
-def _band(band: Band, surroundings: Surroundings) -> TriangleMesh:
+def band_path(band: Band, surroundings: Surroundings) -> Floats:
+    """The middle of a band [m], (n, 3), from behind one ear to behind the other."""
     angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)
     # A half circle around the skull that leans forward as it rises, and passes behind the ears where it ends.
     rise = np.cos(angle)
     places = np.stack(
-        [1.05 * np.sin(angle), 1.1 * rise - 0.65 * (1 - rise), band.lean * rise - 0.6 * (1 - rise)], axis=1
+        [1.05 * np.sin(angle), 1.1 * rise - 0.7 * (1 - rise), band.lean * rise - 0.45 * (1 - rise)], axis=1
     )
     path = at_height(surroundings, along_skin(surroundings, places, band.lift), band.lift)
     # A band is stiff: it goes in one bow over what lies under it.
-    path = gaussian_filter1d(path, _BAND_BOW / STEP, axis=0, mode="nearest")
+    return gaussian_filter1d(path, _BAND_BOW / STEP, axis=0, mode="nearest")
+
+
+@accessory_mesh.register
+def _band(band: Band, surroundings: Surroundings) -> TriangleMesh:
+    path = band_path(band, surroundings)
     _, away = sideways(surroundings, off_skin(surroundings, path, 0.8 * band.lift))
-    return ribbon_strip(path, away, np.full(len(path), band.width), 0.0025)
+    to_end = STEP * np.minimum(np.arange(len(path)), np.arange(len(path))[::-1])
+    width = band.width * (_NARROW + (1.0 - _NARROW) * smoothstep(to_end, 0.0, _TAPER))
+    return ribbon_strip(path, away, width, 0.0025)
 
 
 @accessory_mesh.register

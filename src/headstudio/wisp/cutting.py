@@ -15,6 +15,8 @@ from .strands import Singles
 
 # What is left of a strand that is rooted beyond a cut, as a part of its length: stubble.
 _STUBBLE = 0.01
+# A blade that ends in the middle of the hair curves away, and leaves no corner there: at its end by a part of its reach.
+_CURVE, _POWER = 0.35, 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +44,13 @@ class Blade:
         """
         offset = points - self.place.astype(np.float32)
         height = offset @ self.normal.astype(np.float32) + np.float32(self.ragged) * early[:, None]
-        crosses = height > 0
+        near = True
         if self.reach < EVERYWHERE:
-            crosses &= np.einsum("ijk,ijk->ij", offset, offset) < self.reach**2
+            squared = np.einsum("ijk,ijk->ij", offset, offset)
+            aside = np.maximum(squared - (offset @ self.normal.astype(np.float32)) ** 2, 0.0) / np.float32(self.reach**2)
+            height -= np.float32(_CURVE * self.reach) * aside ** (_POWER // 2)
+            near = squared < self.reach**2
+        crosses = (height > 0) & near
         last = points.shape[1] - 1
         first = np.where(crosses.any(axis=1), crosses.argmax(axis=1), last + 1)
         cut = np.flatnonzero((first > 0) & (first <= last))

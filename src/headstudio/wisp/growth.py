@@ -18,6 +18,7 @@ from .cutting import Blade, cut_strands
 from .elastics import Elastic
 from .follicles import Regions, scatter_strands
 from .hairline import fineness
+from .headbands import Headband
 from .markov import Singles
 from .members import Cuts, Masters, displacements, member_points
 from .settings import WispSettings
@@ -54,9 +55,9 @@ def member_strands(
     wisp: WispSettings,
     surroundings: Surroundings,
     blades: Sequence[Blade],
-    elastics: Sequence[Elastic],
+    holds: Sequence[Elastic | Headband],
 ) -> Singles:
-    """Points of all member strands outside the head [m], (S, points, 3), cut with the ``blades`` and held by ``elastics``."""
+    """Points of all member strands outside the head [m], (S, points, 3), cut with the ``blades`` and held by ``holds``."""
     count = len(sown.owner)
     lengths = LengthDistribution.of(wisp).sample(np.random.default_rng([wisp.seed, 4]).random(count))
     cuts = Cuts.of(masters, wisp.points)
@@ -76,8 +77,8 @@ def member_strands(
         grown = member_points(masters, cuts, own, offsets, lengths[here])
         # Last of all, since what is cut is drawn anew with straight ways between fewer places.
         laid = cut_strands(grown, own, early[here], blades)
-        for elastic in elastics:
-            laid = elastic.pressed(laid, own)
+        for hold in holds:
+            laid = hold.pressed(laid, own)
         outside = surroundings.keep_outside(laid.reshape(-1, 3), _CLEARANCE).reshape(laid.shape)
         points[here] = keep_chords_outside(surroundings, outside, _CLEARANCE)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..head.mesh import Floats
 from ..head.scalp import Scalp
+from .accessories import Band
 from .adornment import Adornment, adorn
 from .colour import strand_colours
 from .cutting import Blade
@@ -19,6 +20,7 @@ from .elastics import Elastic, elastics_of
 from .field import force_field
 from .follicles import Regions, spread_wisps
 from .growth import Sown, member_strands
+from .headbands import Headband
 from .maps import density_map
 from .markov import Singles
 from .masters import master_controls, synthesise_details
@@ -79,7 +81,8 @@ class _Grown:
 
 # What does not change how wisps lie: the first of these shape the curls around their outlines, the others the strands.
 _CURLS = (
-    "prototype", "prototype_curve", "curl_size", "curl_length", "straight_roots", "temperature", "window", "alignment",
+    "prototype", "prototype_curve", "curl_size", "curl_length", "curl_variety", "straight_roots", "temperature", "window",
+    "alignment",
 )  # fmt: skip
 _STRANDS = ("points", "length_distribution", "length_curve", "fuzziness", "shaft_root", "shaft_tip")
 _OUTLINES = tuple(field.name for field in fields(WispSettings) if field.name not in (*_CURLS, *_STRANDS))
@@ -150,7 +153,7 @@ class Stylist:
             sown, colours = sowing.result()
         grown = step(
             "grown",
-            (laid, sown, wisp, styling.cuts),
+            (laid, sown, wisp, styling.cuts, _bands(styling)),
             lambda: _grow(laid, sown, surroundings, wisp, styling, announce),
         )
         worn = step(
@@ -175,6 +178,10 @@ class Stylist:
         uv = scalp.locate(spread.rest.roots)
         force = force_field(replace(styling, operations=(), accessories=()), surroundings)
         return _Laid(spread, outlines, report, uv, elastics_of(styling.operations, outlines, surroundings, force, uv))
+
+
+def _bands(styling: StylingSettings) -> tuple[Band, ...]:
+    return tuple(worn for worn in styling.accessories if isinstance(worn, Band))
 
 
 def _spread(scalp: Scalp, wisp: WispSettings, announce: Callable[[str], None]) -> _Spread:
@@ -202,7 +209,8 @@ def _grow(
         controls, details.per_segment, outlines.radii.astype(np.float32), laid.spread.lengths / outlines.segment
     )
     blades = [Blade.of(cut, surroundings.proportions, laid.uv) for cut in styling.cuts]
-    points = member_strands(masters, sown, wisp, surroundings, blades, laid.elastics)
+    holds = [*laid.elastics, *(Headband.of(band, surroundings) for band in _bands(styling))]
+    points = member_strands(masters, sown, wisp, surroundings, blades, holds)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
     made = Strands.of_equal_count(points, sown.fineness[:, None] * shaft, None, sown.owner.astype(np.int32))
     return _Grown(replace(made, stands_for=wisp.strands / max(len(sown.owner), 1)), controls)

@@ -93,14 +93,21 @@ def _bob(u: Floats, v: Floats) -> Floats:
 
 
 def _round(u: Floats, v: Floats) -> Floats:
-    # Cut to a ball: hair that stands at the rim of the scalp would reach out over face, ears and nape.
+    # Cut to a ball: hair that stands at the rim of the scalp would reach out over face, ears and nape. It rounds off to
+    # the nape, where a ball curves in.
     rim = np.minimum(np.minimum(v, 1 - v), 0.5 - np.abs(u - 0.5))
-    return 0.42 + 0.58 * smoothstep(rim, 0.0, 0.3)
+    return (0.42 + 0.58 * smoothstep(rim, 0.0, 0.3)) * (1 - 0.5 * smoothstep(v, 0.55, 1.0))
 
 
 def _short_back_and_sides(u: Floats, v: Floats) -> Floats:
     top = _top(u, v, 0.42, 0.48, 0.22)
     return 0.14 + 0.16 * (1 - smoothstep(np.maximum(_aside(u), v), 0.45, 0.95)) + 0.7 * top
+
+
+def _mohawk(u: Floats, v: Floats) -> Floats:
+    # A crest is highest in the middle, and falls off to the nape.
+    crest = 1 - 0.5 * smoothstep(_aside(u), 0.0, 0.16)
+    return 0.02 + 0.98 * _top(u, v, 0.13, 1.2, 0.03) * crest * (1 - 0.55 * smoothstep(v, 0.35, 1.0))
 
 
 _LENGTH: Mapping[str, Pattern] = {
@@ -113,7 +120,7 @@ _LENGTH: Mapping[str, Pattern] = {
     "short back and sides": _short_back_and_sides,
     "top knot": lambda u, v: 0.03 + 0.97 * _top(u, v, 0.5, 0.5, 0.04),
     "undercut": lambda u, v: 0.03 + 0.97 * _top(u, v, 0.42, 0.5, 0.03),
-    "mohawk": lambda u, v: 0.02 + 0.98 * _top(u, v, 0.13, 1.2, 0.03) * (1 - 0.4 * smoothstep(v, 0.4, 1.0)),
+    "mohawk": _mohawk,
     "mullet": lambda u, v: 0.18 + 0.1 * _top(u, v, 0.4, 0.4) + 0.72 * smoothstep(v, 0.55, 0.8),
     "crop": lambda u, v: 0.5 + 0.5 * _top(u, v, 0.45, 0.45, 0.3),
 }

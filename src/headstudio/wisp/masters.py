@@ -24,6 +24,8 @@ CONTROLS_PER_PITCH = 7
 _IN_PATCH = 6
 # Were roots straight for the same way on all wisps, curls would begin in a line across the head.
 _SOONER_OR_LATER = (0.4, 1.6)
+# No lock is farther from the mean size than so many standard deviations.
+_FARTHEST = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +63,11 @@ def synthesise_details(outlines: Outlines, settings: WispSettings, laid: Outline
     step = None if laid is None or loose == 1.0 or wisps == 0 else InStep.along(laid)
     come = turns * pitch + (0.0 if step is None else step.come / spacing)
     starts = reached(samples, window, np.rint(np.maximum(come, 0.0)).astype(np.int64))
-    offsets = synthesise(samples, window, settings.temperature, starts, per_segment * joints + 1, rng)
+    count = per_segment * joints + 1
+    larger = _sizes(settings.curl_variety, wisps, np.random.default_rng([settings.seed, 7]))
+    needed = math.ceil(count / min(larger.min(initial=1.0), 1.0)) + 1
+    offsets = synthesise(samples, window, settings.temperature, starts, needed, rng)
+    offsets = _enlarged(offsets, larger, count)
     spin = np.asarray(loose * rng.uniform(-math.pi, math.pi, wisps))
     # Curls turn left or right as it comes. One prototype turns one way, and half of the locks are its mirror images.
     offsets[..., 0] *= np.where(_patches(outlines.roots, rng) < 0.5 * loose, -1, 1).astype(np.float32)[:, None]
@@ -117,6 +123,23 @@ def _patches(roots: Floats, rng: np.random.Generator) -> Floats:
     count = max(len(roots) // _IN_PATCH, 1)
     nearest = cKDTree(roots[rng.permutation(len(roots))[:count]]).query(roots)[1]
     return rng.random(count)[nearest]
+
+
+def _sizes(variety: float, wisps: int, rng: np.random.Generator) -> Floats:
+    """How many times larger the curls of each lock are than the prototype's, (W,): as often smaller as larger."""
+    return np.exp(variety * np.clip(rng.standard_normal(wisps), -_FARTHEST, _FARTHEST))
+
+
+def _enlarged(offsets: Singles, larger: Floats, count: int) -> Singles:
+    """The first ``count`` of details, (W, n, 3), each strand's ``larger``, (W,), in all directions."""
+    if (larger == 1.0).all():
+        return offsets[:, :count]
+    at = np.arange(count) / larger[:, None]
+    before = at.astype(np.int64)
+    part = (at - before).astype(np.float32)[..., None]
+    strand = np.arange(len(offsets))[:, None]
+    between = (1 - part) * offsets[strand, before] + part * offsets[strand, before + 1]
+    return between * larger.astype(np.float32)[:, None, None]
 
 
 def _onset(along: Floats, straight: Floats) -> Singles:

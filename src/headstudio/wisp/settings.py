@@ -93,6 +93,14 @@ class WispSettings:
         "How long curls are along the hair, as a multiple of the prototype.",
         log=True,
     )
+    curl_variety: float = number(
+        0.0,
+        "Curl variety",
+        "",
+        0.0,
+        1.0,
+        "How far curls differ in size from lock to lock: 0.3 makes those of one a third larger than another's.",
+    )
     straight_roots: float = number(
         0.02, "Straight roots", "m", 0.0, 0.3, "How far from the scalp curls have reached their size.", shown="cm"
     )

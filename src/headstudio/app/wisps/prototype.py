@@ -56,7 +56,7 @@ class PrototypeStep:
         ui.muted(HELP)
         if changed is not None:
             self._named.put(changed)
-        self.rows.rows(ui, "wisp", ("curl_size", "curl_length", "straight_roots"))
+        self.rows.rows(ui, "wisp", ("curl_size", "curl_length", "curl_variety", "straight_roots"))
 
     def _draw_view(self, ui: Ui, label: str, across: int, area: Rect, points: Floats, frame: _Frame) -> Path3D | None:
         imgui.set_cursor_screen_pos((area.x, area.y))
