@@ -163,9 +163,10 @@ def test_facial_hair_shares_its_strands_among_its_patches(name):
 CHANGES = {
     "wisps": 40, "strands": 15_000, "points": 9, "segments": 5, "length": 0.17, "density_map": "thinning",
     "length_map": "bob", "protrusion_map": "standing", "protrusion": 0.7, "parting": "right", "parting_reach": 0.03,
-    "prototype": "wavy", "curl_size": 0.5, "curl_length": 0.7, "curl_variety": 0.3, "straight_roots": 0.01, "temperature": 0.1, "window": 0.3,
-    "alignment": 0.5, "length_distribution": "frayed", "deviation_radius": "flaring", "radius": 0.6, "fuzziness": 0.7,
-    "shaft_root": 5e-5, "shaft_tip": 5e-6, "hairline": 0.02, "seed": 4, "length_curve": ((0.2, 1.0), (0.7, 1.0)),
+    "prototype": "wavy", "curl_size": 0.5, "curl_length": 0.7, "curl_variety": 0.3, "straight_roots": 0.01, "temperature": 0.1,
+    "window": 0.3, "alignment": 0.5, "length_distribution": "frayed", "deviation_radius": "flaring", "radius": 0.6,
+    "fuzziness": 0.7, "shaft_root": 5e-5, "shaft_tip": 5e-6, "hairline": 0.02, "seed": 4,
+    "length_curve": ((0.2, 1.0), (0.7, 1.0)),
     "radius_curve": ((0.0, 1.0), (1.0, 0.2)), "prototype_curve": ((0, 0, 0), (0.01, 0.05, 0), (0, 0.1, 0.01), (0, 0.2, 0)),
     "parting_line": ((0.3, 0.0), (0.4, 0.4)), "painted_density": GrayImage(np.linspace(0, 1, 64).reshape(8, 8)),
     "painted_lengths": GrayImage(np.linspace(0.3, 1, 64).reshape(8, 8)),

@@ -55,7 +55,8 @@ def test_curls_of_one_lock_are_larger_than_those_of_another_all_along_it():
 
     def spread(offsets):
         """How far sizes differ from lock to lock, and how nearly the halves of a lock agree."""
-        sizes = [np.log(np.linalg.norm(part[..., :2], axis=2).max(axis=1)) for part in (offsets[:, 1:half], offsets[:, half:])]
+        halves = offsets[:, 1:half], offsets[:, half:]
+        sizes = [np.log(np.linalg.norm(part[..., :2], axis=2).max(axis=1)) for part in halves]
         return np.std(sizes[1]), np.corrcoef(*sizes)[0, 1]
 
     assert spread(various)[0] > spread(alike)[0] + 0.2

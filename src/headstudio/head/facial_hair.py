@@ -21,14 +21,15 @@ Curves = tuple[tuple[tuple[float, float, float], ...], ...]
 
 # Azimuth [deg] and height, 0 at the tragus and -1 at the chin.
 _THROAT = ((64, -0.98), (40, -1.06), (20, -1.1), (0, -1.12))
-_JAW = ((80, -0.62), (84, -0.3))
-_SIDEBURN = ((83, -0.06), (73, -0.02))
-_CHEEK = ((68, -0.22), (58, -0.42), (46, -0.58))
+_JAW = ((82, -0.62), (86, -0.3))
+# It reaches as far up before the ear as the hair of the head reaches down.
+_SIDEBURN = ((85, -0.02), (84, 0.18), (72, 0.18))
+_CHEEK = ((72, -0.05), (68, -0.22), (58, -0.42), (46, -0.58))
 # Azimuth beyond the corner of the mouth [deg] and height, 0 at the mouth and -1 at the chin.
 _BESIDE_MOUTH = ((9, 0.05), (2, -0.28))
-_BELOW_LIP = -0.42
+_BELOW_LIP = -0.33
 # Azimuth as a part of that of the mouth's corner and height, 0 at the mouth and 1 at the tip of the nose.
-_MOUSTACHE_CORNER = ((1.28, -0.1), (1.26, 0.14))
+_MOUSTACHE_CORNER = ((1.42, -0.25), (1.38, 0.12))
 _UPPER_LIP = ((0.95, 0.14), (0.6, 0.3), (0.25, 0.36), (0.0, 0.34))
 _UNDER_NOSE = ((0.95, 0.4), (0.65, 0.6), (0.4, 0.67), (0.0, 0.68))
 
@@ -54,9 +55,9 @@ def beard_curves(head: Head) -> Curves:
         return corner + azimuth, mouth + height * lip
 
     lower = [place(*_JAW[1]), place(*_JAW[0]), *(place(*point) for point in _THROAT)]
-    upper = [place(*_SIDEBURN[1]), *(place(*p) for p in _CHEEK), *(beside(*p) for p in _BESIDE_MOUTH)]
+    upper = [place(*_SIDEBURN[-1]), *(place(*p) for p in _CHEEK), *(beside(*p) for p in _BESIDE_MOUTH)]
     upper.append((0.0, mouth + _BELOW_LIP * lip))
-    return _around(around, lower, [place(*_SIDEBURN[0])], upper)
+    return _around(around, lower, [place(*point) for point in _SIDEBURN[:-1]], upper)
 
 
 def moustache_curves(head: Head) -> Curves:

@@ -15,9 +15,10 @@ from .settings import FacialHairSettings, WispSettings
 from .styling_settings import StylingSettings
 
 _STUBBLE = 0.002  # [m]
+_EDGE = 0.005  # over which hair of the face thins out [m]: its patches are narrow
 _SIZE = 256
 # The upper lip carries so much of all hair, and longer or shorter hair than the chin.
-_MOUSTACHE_SHARE, _MOUSTACHE_LENGTH = 0.1, 0.7
+_MOUSTACHE_SHARE, _MOUSTACHE_LENGTH = 0.12, 0.45
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,7 @@ def facial_patches(settings: FacialHairSettings) -> tuple[FacialPatch, ...]:
             fuzziness=settings.fuzziness,
             shaft_root=settings.shaft,
             shaft_tip=0.5 * settings.shaft,
+            hairline=_EDGE,
             seed=settings.seed,
             protrusion=settings.protrusion,
             parting="none",
@@ -82,7 +84,9 @@ def _map(name: str) -> GrayImage:
 
 
 def _soft_edge(aside: Floats, v: Floats) -> Floats:
-    return smoothstep(v, 0.0, 0.25) * smoothstep(1 - v, 0.0, 0.12)
+    # Before the ears the patch is narrow.
+    narrow = 1.0 - 0.75 * smoothstep(aside, 0.6, 0.85)
+    return smoothstep(v / narrow, 0.0, 0.25) * smoothstep((1 - v) / narrow, 0.0, 0.12)
 
 
 # Over (how far from the middle, v).

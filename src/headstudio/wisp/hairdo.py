@@ -209,7 +209,8 @@ def _grow(
         controls, details.per_segment, outlines.radii.astype(np.float32), laid.spread.lengths / outlines.segment
     )
     blades = [Blade.of(cut, surroundings.proportions, laid.uv) for cut in styling.cuts]
-    holds = [*laid.elastics, *(Headband.of(band, surroundings) for band in _bands(styling))]
+    holds: list[Elastic | Headband] = [*laid.elastics]
+    holds += [Headband.of(band, surroundings) for band in _bands(styling)]
     points = member_strands(masters, sown, wisp, surroundings, blades, holds)
     shaft = np.linspace(wisp.shaft_root, wisp.shaft_tip, wisp.points, dtype=np.float32)
     made = Strands.of_equal_count(points, sown.fineness[:, None] * shaft, None, sown.owner.astype(np.int32))

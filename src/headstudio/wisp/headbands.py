@@ -17,6 +17,7 @@ from .surroundings import Surroundings
 _RISE, _REACH = 0.35, 0.03
 # How hard the edge is: hair as high as the band goes in by a sixth, and hair well below is left alone.
 _EDGE = 4
+_APPROACHES = 2  # the way straight to the skin bends
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,16 +51,17 @@ class Headband:
         near, nearest, spacing = near[met], nearest[met], spacing[met]
         offset = flat[near] - self.path[nearest]
         lengthwise = np.einsum("ij,ij->i", offset, self.along[nearest])
-        height, away = self.surroundings.distance_and_gradient(flat[near])
+        height = self.surroundings.distance(flat[near])
         rise = height - self.room[nearest]
         sideways = np.sqrt(np.maximum(np.einsum("ij,ij->i", offset, offset) - rise**2 - lengthwise**2, 0.0))
         beside = np.maximum(sideways - self.half_width - 0.5 * spacing, 0.0)
         # Nothing is pressed beyond the ends of the band.
         under = (np.abs(lengthwise) <= STEP) & (beside < _REACH) & (height > 0)
-        room = self.room[nearest] + _RISE * beside
-        ratio = np.where(under, height / room, 0.0)
-        part = (1.0 + ratio**_EDGE) ** (-1.0 / _EDGE)
-        flat[near] += ((part - 1.0) * np.maximum(height, 0.0))[:, None] * away
+        near, height, room = near[under], height[under], self.room[nearest[under]] + _RISE * beside[under]
+        wanted = height * (1.0 + (height / room) ** _EDGE) ** (-1.0 / _EDGE)
+        for _ in range(_APPROACHES):
+            height, away = self.surroundings.distance_and_gradient(flat[near])
+            flat[near] += (wanted - height)[:, None] * away
         return points
 
     def _beside(self, points: Singles) -> Ints:
