@@ -54,29 +54,6 @@ def test_only_the_selected_hair_is_cut_and_only_where_the_blade_reaches():
     assert short[-1, -1, 1] == pytest.approx(-0.1, abs=1e-4)
 
 
-def test_an_uneven_cut_leaves_every_lock_its_own_length_within_bounds():
-    strands, owner = hanging()
-    shorter = cut(strands, owner, place=(0.0, -0.2, 0.0), normal=(0.0, -1.0, 0.0), uneven=0.01)
-    ends = shorter[strands[:, -1, 1] < -0.215, -1, 1]
-    assert np.abs(ends + 0.2).max() <= 0.0101
-    assert np.ptp(ends) > 0.004
-    assert abs(ends[0::2].mean() - ends[1::2].mean()) > 0.001
-    again = cut(strands[10:], owner[10:], place=(0.0, -0.2, 0.0), normal=(0.0, -1.0, 0.0), uneven=0.01)
-    assert np.array_equal(again, shorter[10:])
-
-
-def test_a_blade_that_ends_in_the_hair_curves_away():
-    across = np.linspace(0.0, 0.2, 41)
-    down = np.linspace(0.0, -0.4, 64)
-    strands = np.stack(np.broadcast_arrays(across[:, None], down, 0.0), axis=2).astype(np.float32)
-    ends = cut(strands, np.zeros(41, dtype=int), place=(0.0, -0.2, 0.0), normal=(0, -1, 0), reach=0.12)[:, -1, 1]
-    assert ends[0] == pytest.approx(-0.2, abs=1e-4)
-    met = across < 0.1
-    assert (np.diff(ends[met]) < 0).all()
-    assert ends[met][-1] < -0.215
-    assert ends[across > 0.121] == pytest.approx(-0.4)
-
-
 def test_a_blade_that_ends_in_the_hair_curves_away():
     across = np.linspace(0.0, 0.2, 41)
     down = np.linspace(0.0, -0.4, 64)
