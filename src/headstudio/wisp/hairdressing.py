@@ -24,6 +24,12 @@ _TAKE_UP, _TO_KNOT = 1.25, 1.0
 _DOWN = np.array([[0.0, -1.0, 0.0]])
 _BRAID_END = 1.2  # within how many radii of a lock the end of a plait is gathered
 _LIES = 0.4  # the middle of a tail lies off the skin by this part of its greatest radius
+# Of a bun: how high its dome is and how low its last winding lies, how far apart windings are, in radii of the lock; and how
+# far from its middle the first begins, in radii of the bun.
+_DOME, _LOWEST, _APART, _FIRST = 1.0, -0.8, 0.75, 0.1
+# Of the loops of an updo: how one is turned from the one before, between which angles their circles lie on the head and stand
+# on it, and to what part of their radius they are wound in the end.
+_GOLDEN, _LEVEL, _STEEP, _TUCKED = 2.4, 0.35, 1.5, 0.75
 _OFF_SKIN = 0.002  # a tie's edge stays so far off the skin [m]
 
 
@@ -127,6 +133,7 @@ def _braid_path(
 def _bun(operation: Bun, surroundings: Surroundings, force: ForceField, longest: float) -> tuple[Queue, ...]:
     knot, away = _knot(surroundings, operation.place, operation.thickness)
     coil = _coil(knot, away, operation.radius, operation.thickness, longest)
+    coil = off_skin(surroundings, coil, _LIES * operation.thickness)
     gather = PointConstraint(knot, operation.thickness, 1.0, surroundings)
     return (Queue(operation.selection, (gather, TrajectoryConstraint(coil, operation.thickness))),)
 
@@ -135,15 +142,10 @@ def _bun(operation: Bun, surroundings: Surroundings, force: ForceField, longest:
 def _updo(operation: Updo, surroundings: Surroundings, force: ForceField, longest: float) -> tuple[Queue, ...]:
     knot, away = _knot(surroundings, operation.place, operation.thickness)
     gather = PointConstraint(knot, 1.5 * operation.thickness, 1.0, surroundings)
-    angles = 2.0 * np.pi * (np.arange(operation.loops) + 0.5) / operation.loops
+    loops = [_loop(knot, away, number, operation, longest) for number in range(operation.loops)]
     return tuple(
-        Queue(
-            operation.selection,
-            (gather, TrajectoryConstraint(_loop(knot, away, angle, operation, longest), operation.thickness)),
-            part,
-            operation.loops,
-        )
-        for part, angle in enumerate(angles)
+        Queue(operation.selection, (gather, TrajectoryConstraint(loop, operation.thickness)), part, operation.loops)
+        for part, loop in enumerate(loops)
     )
 
 
@@ -186,28 +188,34 @@ def _across(away: Floats) -> tuple[Floats, Floats]:
 
 
 def _coil(knot: Floats, away: Floats, radius: float, thickness: float, length: float) -> Floats:
-    """A path of ``length`` [m] that comes out of the knot, lies around it in a ring and closes it in smaller rings above."""
+    """A path of ``length`` [m] that rises out of the knot, and winds around itself and down to the head: a closed dome."""
     side, up = _across(away)
-    turn = np.linspace(0.0, 2 * np.pi * (1 + length / (2 * np.pi * 0.4 * radius)), 800)
-    rounds = turn / (2 * np.pi)
-    # Out within half a round, one round in full, and from there inward and up, down again where the dome is closed.
-    out = np.minimum(rounds / 0.5, 1.0)
-    inward = np.clip(rounds - 1.3, 0.0, None)
-    ring = radius * out * (0.35 + 0.65 * np.exp(-1.2 * inward))
-    height = thickness * (0.2 + 1.3 * (1.0 - np.exp(-1.2 * inward)))
-    circle = np.cos(turn)[:, None] * side + np.sin(turn)[:, None] * up
-    points = knot + ring[:, None] * circle + height[:, None] * away
+    height = _DOME * thickness
+    angle = np.arange(0.0, length / (0.5 * radius), 0.05)
+    # Windings lie side by side, as far apart as the lock is thick, until they are as wide as the bun.
+    part = np.minimum(_FIRST + angle * _APART * thickness / (2 * np.pi * radius), 1.0)
+    rise = _LOWEST * thickness + (height - _LOWEST * thickness) * (1.0 - part**2)
+    circle = np.cos(angle)[:, None] * side + np.sin(angle)[:, None] * up
+    winding = knot + radius * part[:, None] * circle + rise[:, None] * away
+    stem = knot + np.linspace(0.0, 1.0, 8, endpoint=False)[:, None] * (winding[0] - knot)
+    points = np.concatenate([stem, winding])
     run = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     return points[run <= length]
 
 
-def _loop(knot: Floats, away: Floats, angle: float, updo: Updo, length: float) -> Floats:
-    """A path of ``length`` [m] that leaves the knot toward ``angle`` [rad] around it and rolls up in loops."""
+def _loop(knot: Floats, away: Floats, number: int, updo: Updo, length: float) -> Floats:
+    """A path of ``length`` [m] that winds around a ball on the knot, as the ``number``-th of its loops: each on a great circle
+    of its own, as a ball is wound of yarn.
+    """
     side, up = _across(away)
-    petal = np.cos(angle) * side + np.sin(angle) * up
-    turn = np.arange(0.0, length / updo.radius, 0.1)
-    radius = updo.radius * (0.55 + 0.45 * np.exp(-turn / (3 * np.pi)))
-    # The loop rises off the head, bends outward over the petal and comes back below.
-    out = radius * (1.0 - np.cos(turn))
-    rise = radius * np.sin(turn) + updo.radius * np.minimum(turn, 1.0)
-    return knot + out[:, None] * petal + rise[:, None] * away
+    turned, tilt = number * _GOLDEN, _LEVEL + (_STEEP - _LEVEL) * (number * _GOLDEN / (2 * np.pi) % 1.0)
+    aside = np.cos(turned) * side + np.sin(turned) * up
+    # On the circle: what is lowest of it, where hair comes from the knot, and what is a quarter farther.
+    lowest = -np.sin(tilt) * away + np.cos(tilt) * aside
+    onward = np.cross(np.cos(tilt) * away + np.sin(tilt) * aside, lowest)
+    turn = np.arange(0.0, length / (_TUCKED * updo.radius), 0.1)
+    radius = updo.radius * np.maximum(1.0 - (1.0 - _TUCKED) * turn / (4 * np.pi), _TUCKED)
+    circle = np.cos(turn)[:, None] * lowest + np.sin(turn)[:, None] * onward
+    points = knot + (updo.radius - 0.5 * updo.thickness) * away + radius[:, None] * circle
+    run = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    return points[run <= length]
