@@ -19,8 +19,9 @@ from .context import release
 POINT_ROW = 2048
 """Points in a row of the textures; ``point_row`` in common/strand_points.glsl."""
 
-PIECE = 4
-"""Segments that are sorted as one when strands are blended."""
+PIECE = 2
+"""Segments that are sorted as one when strands are blended: where hair turns toward the eye long pieces stand in a wrong order,
+and begin one beside the other as a dark comb."""
 
 DEFAULT_RADIUS = 4e-5
 """Half the thickness of a shaft [m] where the strands do not say it; the last fifth of a strand tapers to half of it."""

@@ -47,7 +47,9 @@ class Blade:
         near = True
         if self.reach < EVERYWHERE:
             squared = np.einsum("ijk,ijk->ij", offset, offset)
-            aside = np.maximum(squared - (offset @ self.normal.astype(np.float32)) ** 2, 0.0) / np.float32(self.reach**2)
+            aside = np.maximum(squared - (offset @ self.normal.astype(np.float32)) ** 2, 0.0) / np.float32(
+                self.reach**2
+            )
             height -= np.float32(_CURVE * self.reach) * aside ** (_POWER // 2)
             near = squared < self.reach**2
         crosses = (height > 0) & near

@@ -114,7 +114,7 @@ class Bun:
 
 @dataclass(frozen=True)
 class Updo:
-    """Gathers hair at a place and pins it up there in loops, side by side like petals."""
+    """Gathers hair at a place and winds it into a ball of loops there, each on a way of its own."""
 
     selection: Selection = EVERYTHING
     place: Place = (0.0, 0.8, -0.8)
