@@ -7,10 +7,11 @@ found once.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..head.mesh import Floats, Ints
-from ..head.rows import row_dot
 
 # The rows of cells from a cell on, in the order of the sorted array: (dy, dz, first dx, last dx). Of its own row those
 # that come after it.
@@ -24,11 +25,12 @@ def find_pairs(positions: Floats, radius: float) -> Ints:
     count = len(positions)
     if count < 2:
         return np.zeros((0, 2), dtype=np.int64)
-    columns = positions.T
+    columns = np.ascontiguousarray(positions.T)
     cell = _cells(columns, radius)
     nx, ny, nz = cell.max(axis=1) + 2
     key = (cell[2] * ny + cell[1]) * nx + cell[0]
-    order = np.argsort(key, kind="stable")
+    # Keys of 16 bits are sorted by their digits.
+    order = np.argsort(key.astype(np.min_scalar_type(nx * ny * nz)), kind="stable")
     key, columns = key.take(order), columns.take(order, axis=1)
     begins = np.zeros(nx * ny * nz + 1, dtype=np.int64)
     np.cumsum(np.bincount(key, minlength=nx * ny * nz), out=begins[1:])
@@ -36,17 +38,20 @@ def find_pairs(positions: Floats, radius: float) -> Ints:
     row = key + (dz * ny + dy) * nx
     begin = begins.take(row + first)
     begin[0] = np.arange(1, count + 1)  # of a particle's own row those that come after it
-    runs = (begins.take(row + last + 1) - begin).ravel()
+    runs = (begins.take(row + (last + 1)) - begin).ravel()
     # The k-th candidate of a run stands k places behind the run's begin.
     ends = np.cumsum(runs)
-    i = np.repeat(np.tile(np.arange(count), len(_HALF_ROWS)), runs)
-    j = np.arange(ends[-1]) + np.repeat(begin.ravel() - ends + runs, runs)
+    j = np.repeat(begin.ravel() - ends + runs, runs)
+    j += np.arange(len(j))
     square = np.zeros(len(j))
     for x in columns:
-        way = x.take(j) - x.take(i)
-        square += way * way
+        way = x.take(j)
+        way -= np.repeat(np.tile(x, len(_HALF_ROWS)), runs)
+        way *= way
+        square += way
     near = np.flatnonzero(square < radius * radius)
-    return order[np.stack([i[near], j[near]], axis=1)]
+    i = np.repeat(np.tile(order, len(_HALF_ROWS)), runs)
+    return np.stack([i.take(near), order.take(j.take(near))]).T
 
 
 def _cells(columns: Floats, radius: float) -> Ints:
@@ -54,10 +59,12 @@ def _cells(columns: Floats, radius: float) -> Ints:
 
     What lies beyond the widest grid counts to its border: those that were in cells side by side still are.
     """
-    origin = columns.min(axis=1)[:, None]
-    if np.ptp(columns, axis=1).max() > _WIDEST * radius:
-        origin = np.maximum(origin, np.median(columns, axis=1)[:, None] - 0.5 * _WIDEST * radius)
-    return np.fmin(np.fmax((columns - origin) / radius, 0.0), _WIDEST).astype(np.int64) + 1
+    origin = columns.min(axis=1)
+    if (columns.max(axis=1) - origin).max() > _WIDEST * radius:
+        origin = np.maximum(origin, np.median(columns, axis=1) - 0.5 * _WIDEST * radius)
+    cell = (columns - origin[:, None]) * (1.0 / radius)
+    np.fmin(np.fmax(cell, 0.0, out=cell), _WIDEST, out=cell)
+    return cell.astype(np.int64) + 1
 
 
 class NeighbourList:
@@ -74,25 +81,33 @@ class NeighbourList:
         self._pairs: Ints | None = None
         self._searched_at: Floats = np.zeros((0, 3))
         self._searched_skin = 0.0
-        self._asked_at: Floats | None = None
+        self._asked_at = self._searched_at
 
     def pairs(self, positions: Floats) -> Ints:
         """Every pair closer than the radius, each once, and some that are farther, (p, 2). positions: [m], (n, 3)."""
         self.questions += 1
-        if self._pairs is None or _approach(self._searched_at, positions) > self._searched_skin:
-            # A skin that hair leaves behind in a single step only makes the list longer.
-            hasty = self._asked_at is not None and _approach(self._asked_at, positions) > self.skin
-            self._searched_skin = 0.0 if hasty else self.skin
-            self._pairs = find_pairs(positions, self.radius + self._searched_skin)
-            self._searched_at = positions.copy()
-            self.searches += 1
-        self._asked_at = positions
+        if self._pairs is None:
+            return self._search(positions, self.skin)
+        approach = _approach(self._searched_at, positions)
+        if approach <= self._searched_skin:
+            self._asked_at = positions
+            return self._pairs
+        last = approach if self._asked_at is self._searched_at else _approach(self._asked_at, positions)
+        # A skin that hair leaves behind in a single step only makes the list longer.
+        return self._search(positions, 0.0 if last > self.skin else self.skin)
+
+    def _search(self, positions: Floats, skin: float) -> Ints:
+        self.searches += 1
+        self._searched_at = self._asked_at = positions.copy(order="K")
+        self._searched_skin = skin
+        self._pairs = find_pairs(positions, self.radius + skin)
         return self._pairs
 
 
 def _approach(before: Floats, now: Floats) -> float:
     """How much closer any two particles can have come at most [m]."""
-    moved = now - before
-    # What all particles do together changes no distance.
-    moved = moved - moved.mean(axis=0)
-    return 2.0 * float(np.sqrt(np.max(row_dot(moved, moved), initial=0.0)))
+    square = 0.0
+    for moved in np.ascontiguousarray((now - before).T):
+        moved -= moved.mean()  # What all particles do together changes no distance.
+        square = square + moved * moved
+    return 2.0 * math.sqrt(np.max(square, initial=0.0))
