@@ -14,7 +14,7 @@ from headstudio.head.neck import Neck, turned_by
 from headstudio.head.parts import joined
 from headstudio.head.rows import row_dot
 from headstudio.lcp.body import Body
-from headstudio.lcp.contact import Touching, pressed, touching
+from headstudio.lcp.contact import Touching, looked_again, pressed, touching
 
 from .dome import RADIUS, ball_mesh, hanging_chain
 
@@ -153,3 +153,22 @@ def test_planes_bend_with_the_neck():
     still = frame.to_head(off)[share == 0]
     against_the_head = -np.cross(frame.rotation.inv().apply(frame.angular_velocity), still)
     np.testing.assert_allclose(planes.velocity[share == 0], against_the_head, atol=1e-3)
+
+
+def test_hair_that_came_to_another_plane_sees_it():
+    """Between two balls: whoever is within its thickness of either sees it as if it had not come from elsewhere."""
+    left, right = ball_mesh(0.05, (-0.055, 0.0, 0.0)), ball_mesh(0.05, (0.055, 0.0, 0.0))
+    body = Body(ContactField.around(joined([left, right]), 0.007))
+    rng = np.random.default_rng(4)
+    count, keep = 3000, 0.004
+    x = rng.uniform(-1, 1, (count, 3)) * [0.03, 0.05, 0.05]
+    way = rng.normal(scale=0.008, size=(count, 3))
+    before, after = body.planes(x), body.planes(x + way)
+    touch = Touching(before.distance, before.normals, before.velocity, np.full(count, keep))
+    again = looked_again(body, touch, x, x + way, HeadFrame())
+    closer = after.distance < keep
+    assert np.count_nonzero(closer & (touch.distance_after(way) > 2 * keep)) > 20
+    np.testing.assert_array_equal(again.distance[closer], after.distance[closer])
+    np.testing.assert_array_equal(again.normals[closer], after.normals[closer])
+    far = touch.distance > 0.04
+    np.testing.assert_array_equal(again.distance[far], touch.distance_after(way)[far])

@@ -57,6 +57,26 @@ def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) 
     return Touching(planes.distance, planes.normals, planes.velocity, keep)
 
 
+def looked_again(body: Body, touch: Touching, seen_from: Floats, positions: Floats, frame: HeadFrame) -> Touching:
+    """What ``touch`` is from ``positions`` [m], (n, 3), that were seen from elsewhere, (n, 3), a little earlier.
+
+    Past the same planes, but for those that may touch the body by now: in the fold of an arm that may be at another plane.
+    """
+    way = positions - seen_from
+    distance, normals, velocity = (
+        touch.distance_after(way),
+        touch.normals.copy(order="K"),
+        touch.velocity.copy(order="K"),
+    )
+    close = np.flatnonzero(touch.distance < touch.keep + row_length(way))
+    planes = body.planes(rows_at(positions, close), frame)
+    found = np.isfinite(planes.distance)  # what flew deep into the body is beyond all planes but the one it passed
+    close = close[found]
+    distance[close], normals[close] = planes.distance[found], planes.normals[found]
+    velocity[close] = planes.velocity[found]
+    return Touching(distance, normals, velocity, touch.keep)
+
+
 def pressed(model: HairModel, touch: Touching, distance: Floats, velocities: Floats, friction: float) -> Hold:
     """Hair that the body presses out, and holds back where it slides.
 

@@ -11,7 +11,7 @@ from ..head.frame import HeadFrame
 from ..head.mesh import Floats
 from .bending import Bending
 from .body import Body
-from .contact import Touching, pressed, touching
+from .contact import Touching, looked_again, pressed, touching
 from .direction import updated_directions
 from .hold import Hold
 from .interactions import hair_hair_forces
@@ -119,15 +119,21 @@ class Dynamics:
         return velocities if now.parting is None else now.parting.guided(start, velocities)
 
     def put_back(
-        self, positions: Floats, velocities: Floats, seen_from: Floats, touch: Touching, now: Circumstances
+        self,
+        positions: Floats,
+        velocities: Floats,
+        seen_from: Floats,
+        touch: Touching,
+        now: Circumstances,
+        frame: HeadFrame,
     ) -> tuple[Floats, Floats]:
         """Positions [m] and velocities [m/s], (n, 3), with what is too deep or too far put back and stopped.
 
-        touch: the planes as they are seen from other positions, (n, 3).
+        touch: the planes as they were seen from other positions, (n, 3). frame: of the head, for both.
         """
         with self.timer.stage("contact"):
             drawn = self.tethers.drawn_along(positions) if now.parting is None else positions
-            return put_back(self.model, drawn, velocities, touch, touch.distance_after(drawn - seen_from))
+            return put_back(self.model, drawn, velocities, looked_again(self.body, touch, seen_from, drawn, frame))
 
     def turn(self, links: LinkState, directions: Floats) -> Floats:
         """Hair directions where ``links`` are (eq. 15), unit, (n, 3)."""

@@ -123,7 +123,7 @@ class ImplicitSolver:
         free = v + change
         guided = dynamics.guided(x_hat, free, now)
         x_free = x_hat + g * guided
-        x_new, v_new = dynamics.put_back(x_free, guided, ahead, touch, now)
+        x_new, v_new = dynamics.put_back(x_free, guided, ahead, touch, now, frames[1])
         # What hands and limits did is no part of the slopes.
         before = (
             looking_back(x_free, x, x_before) + (x_new - x_free),

@@ -59,5 +59,5 @@ class LeapfrogSolver:
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v[dynamics.model.fixed] = 0.0
         v = dynamics.guided(x, v, now)
-        x, v = dynamics.put_back(x + dt * v, v, x, touch, now)
+        x, v = dynamics.put_back(x + dt * v, v, x, touch, now, frame)
         return HairState(x, v, dynamics.turn(dynamics.links(x, settings), state.directions), state.time + dt)

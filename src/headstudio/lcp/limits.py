@@ -18,15 +18,14 @@ _LEAST_GAIN = 0.3  # of a way along the body over the straight one
 _DEEPEST = 0.001  # that hair may be below the surface [m]
 
 
-def put_back(
-    model: HairModel, positions: Floats, velocities: Floats, touch: Touching, distance: Floats
-) -> tuple[Floats, Floats]:
+def put_back(model: HairModel, positions: Floats, velocities: Floats, touch: Touching) -> tuple[Floats, Floats]:
     """Positions [m] and velocities [m/s], (n, 3) each, with what forces could not stop put back and stopped.
 
-    distance: of the positions from their planes [m], (n,). None ends deeper than ``_DEEPEST`` below its plane, or goes on
-    into the body (eq. 3.21), and then none further from its root than ``LONGEST_REACH`` times its length, or goes on outward.
-    Next to the root, closer than to its neighbours, it may be off by as much as a neighbour.
+    touch: seen from the positions. None ends deeper than ``_DEEPEST`` below its plane, or goes on into the body (eq. 3.21),
+    and then none further from its root than ``LONGEST_REACH`` times its length, or goes on outward. Next to the root, closer
+    than to its neighbours, it may be off by as much as a neighbour.
     """
+    distance = touch.distance
     back, stopped = positions.copy(order="K"), velocities.copy(order="K")
     deepest = np.minimum(touch.keep, 0.0) - _DEEPEST
     deep = np.flatnonzero((distance < deepest) & ~model.fixed)
