@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from headstudio.bench.neighbours import neighbour_cost
+from headstudio.bench.neighbours import neighbour_cost, search_both
 
 HEAD = ("--head", "mannequin")
 
@@ -78,7 +78,7 @@ def test_a_face_and_its_carving(headstudio, monkeypatch):
 
 def test_it_counts_the_pairs_that_the_tree_finds():
     positions = np.random.default_rng(1).random((400, 3))
-    cost = neighbour_cost(positions, 0.1, step_ms=0.1, searches=1, steps=10)
+    cost = neighbour_cost([search_both(positions, 0.1)], step_ms=0.1, searches=1, steps=10)
     assert cost.pairs == len(cKDTree(positions).query_pairs(0.1))
     assert cost.part_of_kdtree == pytest.approx(0.1 / cost.kdtree_ms)
 

@@ -19,7 +19,7 @@ from ..scene.document import Document
 from ..scene.motion import Motion, head_motion
 from ..scene.simulation import Simulation
 from ..scene.views import seen_from
-from .neighbours import NeighbourCost, neighbour_cost
+from .neighbours import NeighbourCost, Search, neighbour_cost, search_both
 
 DISPLAY_RATE = 30.0
 SIZE = (512, 512)
@@ -83,12 +83,14 @@ def animation_cost(
         renderer.context.finish()
         tick()
 
-    def animate() -> tuple[float, float]:
+    def animate() -> tuple[float, float, Search]:
         start = time.perf_counter()
         simulation.advance(motion, 1 / DISPLAY_RATE)
         simulated = time.perf_counter()
+        search = search_both(simulation.state.positions, simulation.dynamics.neighbours.radius)
+        searched = time.perf_counter()
         draw(simulation)
-        return 1e3 * (simulated - start), 1e3 * (time.perf_counter() - simulated)
+        return 1e3 * (simulated - start), 1e3 * (time.perf_counter() - searched), search
 
     for _ in range(WARM_UP):
         animate()
@@ -102,21 +104,16 @@ def animation_cost(
     integrations = (neighbours.questions - questions) * simulation.parts
     searches = neighbours.searches - searches
     listed = sum(stage.get("neighbours", 0.0) for stage in stages)
-    simulation_ms, picture_ms = (median(cost) for cost in zip(*costs, strict=True))
     return AnimationCost(
         particles=simulation.built.hair.count,
         links=len(simulation.built.hair.links),
         frames=frames,
-        simulation_ms=simulation_ms,
-        picture_ms=picture_ms,
+        simulation_ms=median(simulated for simulated, _, _ in costs),
+        picture_ms=median(drawn for _, drawn, _ in costs),
         frame_ms=_frame_ms(SimulationAhead(built, document), motion, draw, frames),
         stages=_medians(stages) | _picture_stages(animate, renderer),
         neighbours=neighbour_cost(
-            simulation.state.positions,
-            neighbours.radius,
-            listed / max(integrations, 1),
-            searches,
-            integrations,
+            [search for _, _, search in costs], listed / max(integrations, 1), searches, integrations
         ),
     )
 

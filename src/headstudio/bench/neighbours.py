@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from statistics import median
+from typing import NamedTuple
 
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats
 from ..lcp.neighbours import find_pairs
 
-REPEATS = 7
+
+class Search(NamedTuple):
+    """How long one cKDTree, built and asked for all pairs, and one search of the grid took [ms]; the pairs found."""
+
+    kdtree_ms: float
+    grid_ms: float
+    pairs: int
 
 
 @dataclass(frozen=True)
 class NeighbourCost:
-    """Milliseconds, medians. pairs: how many lie within the radius.
+    """Milliseconds. pairs: how many lie within the radius at last.
 
     kdtree_ms: building a cKDTree and asking it for all pairs, as every integration would without a list. search_ms: one
-    search of the grid. step_ms: what the list costs an integration of the equations of motion on average. searches,
-    steps: how many searches and integrations there were in the animation that was measured.
+    search of the grid; both medians. step_ms: what the list costs an integration of the equations of motion on average.
+    searches, steps: how many searches and integrations there were in the animation that was measured.
     """
 
     pairs: int
@@ -37,23 +43,25 @@ class NeighbourCost:
         return self.step_ms / self.kdtree_ms
 
 
-def neighbour_cost(positions: Floats, radius: float, step_ms: float, searches: int, steps: int) -> NeighbourCost:
-    """Measure both searches for ``positions`` [m], (n, 3), and ``radius`` [m]; the rest is from the animation."""
+def search_both(positions: Floats, radius: float) -> Search:
+    """Both searches, once, for ``positions`` [m], (n, 3), and ``radius`` [m].
+
+    To be asked where the list is: the caches of the processor are full of other things there.
+    """
+    begin = time.perf_counter()
+    cKDTree(positions).query_pairs(radius, output_type="ndarray")
+    between = time.perf_counter()
+    pairs = find_pairs(positions, radius)
+    return Search(1e3 * (between - begin), 1e3 * (time.perf_counter() - between), len(pairs))
+
+
+def neighbour_cost(measured: list[Search], step_ms: float, searches: int, steps: int) -> NeighbourCost:
+    """What the list costs beside the searches that were ``measured`` in the same animation; the rest is from there."""
     return NeighbourCost(
-        pairs=len(find_pairs(positions, radius)),
-        kdtree_ms=median(_timed(lambda: cKDTree(positions).query_pairs(radius, output_type="ndarray"))),
-        search_ms=median(_timed(lambda: find_pairs(positions, radius))),
+        pairs=measured[-1].pairs,
+        kdtree_ms=median(search.kdtree_ms for search in measured),
+        search_ms=median(search.grid_ms for search in measured),
         step_ms=step_ms,
         searches=searches,
         steps=steps,
     )
-
-
-def _timed(work: Callable[[], object]) -> list[float]:
-    def once() -> float:
-        start = time.perf_counter()
-        work()
-        return 1e3 * (time.perf_counter() - start)
-
-    once()
-    return [once() for _ in range(REPEATS)]
