@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from headstudio.head.rows import rows_at
-from headstudio.lcp.direction import turned, updated_directions
+from headstudio.lcp.direction import DirectionUpdate, turned
 from headstudio.lcp.springs import Springs
 
 from .dome import hair_of, hanging_chain
@@ -14,8 +13,24 @@ E = 3e5
 
 
 def updated(model, positions, directions):
-    springs = Springs(model)
-    return updated_directions(model, springs, springs.at(positions, E), directions)
+    return DirectionUpdate(model).led_by(Springs(model).at(positions, E), directions)
+
+
+def turned_by_link(unit, hair, cosine):
+    """t_i^j of eq. 15: the connection turned by theta toward the hair, (m, 3)."""
+    between = np.einsum("ij,ij->i", unit, hair)
+    lengthwise, sideways, _ = turned(between, cosine, np.sqrt(1 - cosine**2))
+    return lengthwise[:, None] * unit + sideways[:, None] * hair
+
+
+def mean_direction(model, links, directions):
+    """Eq. 15 as it stands, particle by particle."""
+    total = np.zeros((model.count, 3))
+    for k, pair in enumerate(model.links):
+        for end, unit in ((0, links.unit[k]), (1, -links.unit[k])):
+            t = turned_by_link(unit[None], directions[pair[end]][None], model.rest_cosine[k, end][None])
+            total[pair[end]] += links.stiffness[k] * t[0]
+    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
 
 
 def random_units(count, seed=0):
@@ -58,13 +73,13 @@ def test_one_link_turns_the_direction_by_hand():
     unit = np.array([[1.0, 0.0, 0.0]])
     hair = np.array([[np.cos(0.3), np.sin(0.3), 0.0]])
     for theta in (0.0, 0.5, np.pi / 2, 2.5, np.pi):
-        result = turned(unit, hair, np.array([np.cos(theta)]))
+        result = turned_by_link(unit, hair, np.array([np.cos(theta)]))
         np.testing.assert_allclose(result, [[np.cos(theta), np.sin(theta), 0.0]], atol=1e-9)
 
 
 def test_a_turn_keeps_angle_and_plane():
     unit, hair, cosine = random_units(200, 1), random_units(200, 2), np.random.default_rng(3).uniform(-1, 1, 200)
-    result = turned(unit, hair, cosine)
+    result = turned_by_link(unit, hair, cosine)
     np.testing.assert_allclose(np.linalg.norm(result, axis=1), 1.0)
     np.testing.assert_allclose(np.einsum("ij,ij->i", result, unit), cosine, atol=1e-9)
     np.testing.assert_allclose(np.einsum("ij,ij->i", result, np.cross(unit, hair)), 0, atol=1e-9)
@@ -73,7 +88,7 @@ def test_a_turn_keeps_angle_and_plane():
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_where_hair_and_connection_are_parallel_there_is_no_axis(side):
     unit = random_units(5)
-    np.testing.assert_allclose(turned(unit, side * unit, np.full(5, 0.3)), side * unit, atol=1e-12)
+    np.testing.assert_allclose(turned_by_link(unit, side * unit, np.full(5, 0.3)), side * unit, atol=1e-12)
 
 
 def test_stiffer_links_count_for_more():
@@ -97,16 +112,38 @@ def test_links_that_cancel_out_change_nothing():
 
 def test_one_turn_of_the_directions_comes_nearly_to_where_many_lead(hair):
     """A mean alone, eq. 15, would need tens of them where links lie across the hair."""
-    springs = Springs(hair)
     bent = hair.rest_positions + 0.3 * np.linalg.norm(hair.rest_positions, axis=1, keepdims=True) ** 2
-    links = springs.at(bent, E)
-    at_ends = rows_at(hair.rest_directions, hair.links.T.ravel())
-    unit, cosine = np.concatenate([links.unit, -links.unit]), hair.rest_cosine.ravel(order="F")
-    mean = springs.sum_at_ends(np.tile(links.stiffness, 2)[:, None] * turned(unit, at_ends, cosine))
-    mean /= np.linalg.norm(mean, axis=1, keepdims=True)
-    once = limit = updated_directions(hair, springs, links, hair.rest_directions)
+    links = Springs(hair).at(bent, E)
+    mean = mean_direction(hair, links, hair.rest_directions)
+    directions = DirectionUpdate(hair)
+    once = limit = directions.led_by(links, hair.rest_directions)
     for _ in range(60):
-        limit = updated_directions(hair, springs, links, limit)
+        limit = directions.led_by(links, limit)
     left, without = (np.median(np.linalg.norm((a - limit)[~hair.fixed], axis=1)) for a in (once, mean))
     assert without > 0.005
     assert left < 0.2 * without
+
+
+def test_one_turn_is_the_step_of_newton_that_the_formula_says(hair):
+    """((1 + e) s - B)^-1 r, particle by particle, with B as it is written."""
+    rng = np.random.default_rng(5)
+    links = Springs(hair).at(hair.rest_positions + rng.normal(scale=0.0005, size=(hair.count, 3)), E)
+    directions = hair.rest_directions
+    total, held = np.zeros((hair.count, 3)), np.zeros((hair.count, 3, 3))
+    for k, pair in enumerate(hair.links):
+        for end, unit in ((0, links.unit[k]), (1, -links.unit[k])):
+            t, cosine = directions[pair[end]], hair.rest_cosine[k, end]
+            across = np.cross(unit, t)
+            weight = links.stiffness[k] * np.sqrt(1 - cosine**2) / np.linalg.norm(across) ** 3
+            total[pair[end]] += links.stiffness[k] * turned_by_link(unit[None], t[None], cosine[None])[0]
+            held[pair[end]] += weight * np.outer(across, across)
+    along = np.einsum("ij,ij->i", total, directions)
+    largest = np.linalg.eigvalsh(held)[:, -1]
+    plain = ~hair.fixed & (largest < along)
+    rest = (total - along[:, None] * directions)[plain]
+    changed = np.linalg.solve((1.02 * along[:, None, None] * np.eye(3) - held)[plain], rest[:, :, None])[:, :, 0]
+    plain[plain] = np.linalg.norm(changed, axis=1) < 0.5
+    expected = directions[plain] + changed[np.linalg.norm(changed, axis=1) < 0.5]
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    assert np.count_nonzero(plain) > 0.5 * hair.count
+    np.testing.assert_allclose(DirectionUpdate(hair).led_by(links, directions)[plain], expected, atol=1e-9)

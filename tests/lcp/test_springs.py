@@ -181,13 +181,3 @@ def test_nothing_is_infinite_when_all_are_in_one_place(hair):
     state = springs.at(x, E)
     assert np.all(np.isfinite(forces_of(springs, state, x, DynamicsSettings())))
     assert np.all(np.isfinite(state.stiffness))
-
-
-def test_sums_at_the_ends_are_sums_over_the_links_of_a_particle():
-    model = bundle(strands=2, joints=3)
-    a, b = np.random.default_rng(2).random((2, len(model.links), 3))
-    expected = np.zeros((model.count, 3))
-    for k, (i, j) in enumerate(model.links):
-        expected[i] += a[k]
-        expected[j] += b[k]
-    np.testing.assert_allclose(Springs(model).sum_at_ends(np.concatenate([a, b])), expected)

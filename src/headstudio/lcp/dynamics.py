@@ -12,7 +12,7 @@ from ..head.mesh import Floats
 from .bending import Bending
 from .body import Body
 from .contact import Touching, looked_again, pressed, touching
-from .direction import updated_directions
+from .direction import DirectionUpdate
 from .hold import Hold
 from .interactions import hair_hair_forces
 from .limits import Tethers, put_back
@@ -51,6 +51,7 @@ class Dynamics:
         self.model = model
         self.body = body
         self.springs = Springs(model)
+        self.directions = DirectionUpdate(model)
         self.strands = Strands(model)
         self.bending = Bending(model)
         self.tethers = Tethers(model)
@@ -138,4 +139,4 @@ class Dynamics:
     def turn(self, links: LinkState, directions: Floats) -> Floats:
         """Hair directions where ``links`` are (eq. 15), unit, (n, 3)."""
         with self.timer.stage("directions"):
-            return updated_directions(self.model, self.springs, links, directions)
+            return self.directions.led_by(links, directions)

@@ -61,8 +61,6 @@ class Springs:
         self._sum_at_tipward = sparse.csr_array((ones, (tipward, rows)), shape=shape)
         spread = (self._sum_at_rootward - self._sum_at_tipward).tocsr()
         self._spread, self._difference = OnColumns(spread), OnColumns(-spread.T.tocsr())
-        at_ends = sparse.hstack([self._sum_at_rootward, self._sum_at_tipward], format="csr")
-        self._sum_at_ends = {columns: OnColumns(at_ends, columns) for columns in (3, 6)}
         self.around = (self._sum_at_rootward + self._sum_at_tipward).tocsr()
         self.section = (model.mass / HAIR_MATERIAL_DENSITY) ** (2.0 / 3.0)
         rest = model.strength * kernel(model.rest_length, model.smoothing_length_links)
@@ -129,10 +127,3 @@ class Springs:
     def spread(self, pull: Floats) -> Floats:
         """Add what pulls along every link to its rootward particle and take it from its tipward one, (m, 3) to (n, 3)."""
         return self._spread @ pull
-
-    def sum_at_ends(self, at_ends: Floats) -> Floats:
-        """Sum over the links of a particle, first of what is at all rootward, then at all tipward ends, (2 m, k) to (n, k).
-
-        k: 3 for vectors, 6 for symmetric matrices.
-        """
-        return self._sum_at_ends[at_ends.shape[1]] @ at_ends
