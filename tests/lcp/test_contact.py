@@ -25,8 +25,8 @@ def at_floor(distance, velocity=(0.0, 0.0, 0.0), drift=(0.0, 0.0, 0.0), keep=0.0
     """What holds one particle over a floor that moves with the velocity ``drift``."""
     chain = hanging_chain(2)
     still = np.zeros((2, 3))
-    touch = Touching(np.array([1.0, distance]), np.repeat(UP, 2, axis=0), still + drift, np.full(2, keep))
-    return chain.mass[1], pressed(chain, touch, touch.distance, still + velocity, friction)
+    touch = Touching(still, np.array([1.0, distance]), np.repeat(UP, 2, axis=0), still + drift, np.full(2, keep))
+    return chain.mass[1], pressed(chain, touch, still + velocity, friction)
 
 
 def test_hair_off_the_body_is_left_alone():
@@ -103,7 +103,7 @@ def test_contact_pushes_out_and_takes_energy(seed, distance, keep, friction):
 def test_hair_is_not_pushed_where_it_begins(hair, ball):
     """In the initial state only grown hair that lies closer than it is thick is pushed: out, by less than its thickness."""
     touch = touching(hair, ball, hair.rest_positions, HeadFrame())
-    hold = pressed(hair, touch, touch.distance, np.zeros((hair.count, 3)), 0.5)
+    hold = pressed(hair, touch, np.zeros((hair.count, 3)), 0.5)
     pressed_by = hold.push / hold.stiffness_along
     moved = hold.which[pressed_by > 1e-4]
     assert len(moved)
@@ -164,11 +164,11 @@ def test_hair_that_came_to_another_plane_sees_it():
     x = rng.uniform(-1, 1, (count, 3)) * [0.03, 0.05, 0.05]
     way = rng.normal(scale=0.008, size=(count, 3))
     before, after = body.planes(x), body.planes(x + way)
-    touch = Touching(before.distance, before.normals, before.velocity, np.full(count, keep))
-    again = looked_again(body, touch, x, x + way, HeadFrame())
+    touch = Touching(x, before.distance, before.normals, before.velocity, np.full(count, keep))
+    again = looked_again(body, touch, x + way, HeadFrame())
     closer = after.distance < keep
-    assert np.count_nonzero(closer & (touch.distance_after(way) > 2 * keep)) > 20
+    assert np.count_nonzero(closer & (touch.seen_from(x + way).distance > 2 * keep)) > 20
     np.testing.assert_array_equal(again.distance[closer], after.distance[closer])
     np.testing.assert_array_equal(again.normals[closer], after.normals[closer])
     far = touch.distance > 0.04
-    np.testing.assert_array_equal(again.distance[far], touch.distance_after(way)[far])
+    np.testing.assert_array_equal(again.distance[far], touch.seen_from(x + way).distance[far])

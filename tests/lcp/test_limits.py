@@ -17,11 +17,13 @@ UP = np.array([0.0, 1.0, 0.0])
 def over_floor(*distances):
     """Every particle over a floor of its own that goes up with 0.5 m/s."""
     count = len(distances)
-    return Touching(np.array(distances), np.tile(UP, (count, 1)), np.tile(0.5 * UP, (count, 1)), np.zeros(count))
+    still, up = np.zeros((count, 3)), np.tile(UP, (count, 1))
+    return Touching(still, np.array(distances), up, 0.5 * up, np.zeros(count))
 
 
 def no_touch(count):
-    return Touching(np.full(count, np.inf), np.zeros((count, 3)), np.zeros((count, 3)), np.zeros(count))
+    still = np.zeros((count, 3))
+    return Touching(still, np.full(count, np.inf), still, still, np.zeros(count))
 
 
 def test_what_is_too_deep_is_put_back_to_the_surface_and_goes_no_deeper():
@@ -70,7 +72,7 @@ def test_hair_ends_outside_however_fast_it_came(hair, ball):
     x = CENTRE + (RADIUS + 0.004) * out
     touch = touching(hair, ball, x, HeadFrame())
     way = -0.05 * out
-    back, _ = put_back(hair, x + way, -3.0 * out, looked_again(ball, touch, x, x + way, HeadFrame()))
+    back, _ = put_back(hair, x + way, -3.0 * out, looked_again(ball, touch, x + way, HeadFrame()))
     height = np.linalg.norm(back - CENTRE, axis=1) - RADIUS
     assert np.all(height[~hair.fixed] > np.minimum(touch.keep[~hair.fixed], 0.0) - 0.003)
 

@@ -20,14 +20,12 @@ LENGTHS = np.array([-0.002, 0.05, 0.1])
 UP = np.array([0.0, 1.0, 0.0])
 
 
-def floor(distance):
-    """Planes at ``distance`` below all three particles, and that distance."""
-    return Touching(np.full(3, distance), np.tile(UP, (3, 1)), np.zeros((3, 3)), np.full(3, 0.006)), np.full(
-        3, distance
-    )
+STILL = np.zeros((3, 3))
 
 
-FREE = floor(np.inf)
+def over_floor(positions, distance=np.inf):
+    """All three particles so high over a floor; without, in the air."""
+    return Touching(positions, np.full(3, distance), np.tile(UP, (3, 1)), STILL, np.full(3, 0.006))
 
 
 @pytest.fixture(scope="module")
@@ -42,33 +40,33 @@ def reaching(chain, *shares):
 
 
 def test_slack_strands_do_not_pull(chain):
-    assert len(Strands(chain).taut(reaching(chain, 0.999, 0.5), np.zeros((3, 3)), *FREE).which) == 0
+    assert len(Strands(chain).taut(STILL, over_floor(reaching(chain, 0.999, 0.5))).which) == 0
 
 
 def test_a_taut_strand_pulls_home_with_three_times_its_weight_for_a_hundredth(chain):
-    hold = Strands(chain).taut(reaching(chain, 1.01, 1.02), np.zeros((3, 3)), *FREE)
+    hold = Strands(chain).taut(STILL, over_floor(reaching(chain, 1.01, 1.02)))
     np.testing.assert_array_equal(hold.which, [1, 2])
     pull = np.array([[0.0, 1.0, 0.0], [-0.6, 0.0, 0.8]]) * np.array([[30.0], [60.0]]) * chain.mass[1:, None]
     np.testing.assert_allclose(hold.forces(), pull, rtol=1e-9)
 
 
 def test_its_stiffness_is_the_slope_of_its_pull(chain):
-    strands, still, dx = Strands(chain), np.zeros((3, 3)), 1e-7
-    hold = strands.taut(reaching(chain, 1.01, 1.02), still, *FREE)
+    strands, dx = Strands(chain), 1e-7
+    hold = strands.taut(STILL, over_floor(reaching(chain, 1.01, 1.02)))
     for i, along in zip(hold.which, hold.direction, strict=True):
         across = np.cross(along, [0.3, 0.5, 0.7])
         across /= np.linalg.norm(across)
         for way, slope in ((along, hold.stiffness_along), (across, hold.stiffness_across)):
             moved = reaching(chain, 1.01, 1.02)
             moved[i] += dx * way
-            change = (strands.taut(moved, still, *FREE).forces() - hold.forces())[i - 1] / dx
+            change = (strands.taut(STILL, over_floor(moved)).forces() - hold.forces())[i - 1] / dx
             np.testing.assert_allclose(change, -slope[i - 1] * way, atol=1e-4 * hold.stiffness_along[i - 1])
 
 
 def test_hair_on_the_body_is_drawn_along_it(chain):
     """The root lies below and beside, the floor between them."""
     away = chain.root_points + np.array([[0.0, 0.0, 0.0], [0.0, 0.01, 0.06], [0.03, 0.01, 0.0]])
-    on_floor, above = (Strands(chain).taut(away, np.zeros((3, 3)), *floor(height)) for height in (0.0, 0.01))
+    on_floor, above = (Strands(chain).taut(STILL, over_floor(away, height)) for height in (0.0, 0.01))
     np.testing.assert_array_equal(on_floor.which, [1])
     np.testing.assert_allclose(on_floor.forces(), [[0.0, 0.0, -np.linalg.norm(above.forces())]])
     assert above.forces()[0, 1] < 0
@@ -76,7 +74,7 @@ def test_hair_on_the_body_is_drawn_along_it(chain):
 
 def test_root_particles_have_no_strand(chain):
     far = chain.root_points + 1.0
-    assert 0 not in Strands(chain).taut(far, np.zeros((3, 3)), *FREE).which
+    assert 0 not in Strands(chain).taut(STILL, over_floor(far)).which
 
 
 @pytest.mark.parametrize("bending_scale", [0.1, 1.0])

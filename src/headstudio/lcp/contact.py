@@ -9,7 +9,7 @@ step, and the springs of the hair know of it a step late.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -32,20 +32,24 @@ _STICKING = 0.005  # hair that would slide more slowly sticks [m/s]
 
 @dataclass(frozen=True, eq=False)
 class Touching:
-    """The plane nearest to every particle: distance d [m], (n,), unit normal and velocity of the body [m/s], (n, 3).
+    """The planes nearest to particles at ``positions`` [m]: distance d [m], (n,), unit normal and velocity [m/s], (n, 3).
 
     keep: the distance at which the particle touches [m], (n,): less next to the scalp, where hair begins closer to the
     skin than that, and below zero where a plane is too coarse for the skin that hair lies on.
     """
 
+    positions: Floats
     distance: Floats
     normals: Floats
     velocity: Floats
     keep: Floats
 
-    def distance_after(self, way: Floats) -> Floats:
-        """d [m], (n,), of particles that have gone a ``way`` [m], (n, 3), past the same planes."""
-        return self.distance + row_dot(way, self.normals)
+    def seen_from(self, positions: Floats, later: float = 0.0) -> Touching:
+        """The same planes from other ``positions`` [m], (n, 3), when they have moved on for ``later`` [s]."""
+        way = positions - self.positions
+        if later:
+            way -= later * self.velocity
+        return replace(self, positions=positions, distance=self.distance + row_dot(way, self.normals))
 
 
 def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) -> Touching:
@@ -54,44 +58,41 @@ def touching(model: HairModel, body: Body, positions: Floats, frame: HeadFrame) 
     thickness = _THICKNESS * model.spacing
     begins = (model.arc_length < _BEGINNING * model.spacing) | (model.rest_clearance < 0)
     keep = np.where(begins, np.minimum(thickness, model.rest_clearance), thickness)
-    return Touching(planes.distance, planes.normals, planes.velocity, keep)
+    return Touching(positions, planes.distance, planes.normals, planes.velocity, keep)
 
 
-def looked_again(body: Body, touch: Touching, seen_from: Floats, positions: Floats, frame: HeadFrame) -> Touching:
-    """What ``touch`` is from ``positions`` [m], (n, 3), that were seen from elsewhere, (n, 3), a little earlier.
+def looked_again(body: Body, touch: Touching, positions: Floats, frame: HeadFrame) -> Touching:
+    """``touch`` from ``positions`` [m], (n, 3), that particles have come to since.
 
-    Past the same planes, but for those that may touch the body by now: in the fold of an arm that may be at another plane.
+    The same planes, but for those that may touch the body by now: in the fold of an arm that may be at another plane.
     """
-    way = positions - seen_from
-    distance, normals, velocity = (
-        touch.distance_after(way),
-        touch.normals.copy(order="K"),
-        touch.velocity.copy(order="K"),
-    )
-    close = np.flatnonzero(touch.distance < touch.keep + row_length(way))
+    there = touch.seen_from(positions)
+    close = np.flatnonzero(touch.distance < touch.keep + row_length(positions - touch.positions))
     planes = body.planes(rows_at(positions, close), frame)
     found = np.isfinite(planes.distance)  # what flew deep into the body is beyond all planes but the one it passed
     close = close[found]
-    distance[close], normals[close] = planes.distance[found], planes.normals[found]
-    velocity[close] = planes.velocity[found]
-    return Touching(distance, normals, velocity, touch.keep)
+    normals, velocity = touch.normals.copy(order="K"), touch.velocity.copy(order="K")
+    there.distance[close], normals[close], velocity[close] = (
+        of[found] for of in (planes.distance, planes.normals, planes.velocity)
+    )
+    return replace(there, normals=normals, velocity=velocity)
 
 
-def pressed(model: HairModel, touch: Touching, distance: Floats, velocities: Floats, friction: float) -> Hold:
+def pressed(model: HairModel, touch: Touching, velocities: Floats, friction: float) -> Hold:
     """Hair that the body presses out, and holds back where it slides.
 
-    distance: d [m], (n,). velocities: head frame [m/s], (n, 3). The force along the normal is f_r of eq. 3.24, with d from
+    velocities: head frame [m/s], (n, 3). The force along the normal is f_r of eq. 3.24, with d from
     where the hair touches. Across it is Coulomb's friction of eq. 3.22 and 3.23 with the coefficient ``friction``: mu |f_r|
     against the slip, as a drag in proportion to it, and less where hair sticks.
     """
-    which = np.flatnonzero((distance < touch.keep) & ~model.fixed)
+    which = np.flatnonzero((touch.distance < touch.keep) & ~model.fixed)
     normals = rows_at(touch.normals, which)
-    keep, mass = touch.keep[which], model.mass[which]
-    deep = np.maximum(np.minimum(keep, 0.0) - distance[which], 0.0)
+    distance, keep, mass = touch.distance[which], touch.keep[which], model.mass[which]
+    deep = np.maximum(np.minimum(keep, 0.0) - distance, 0.0)
     of_hair = mass * _PRESSED / np.maximum(_GIVES * keep, _LEAST_GIVES)
     of_skin = np.where(deep > 0, mass * _SKIN, 0.0)
     stiffness = of_hair + of_skin
-    push = of_hair * (keep - distance[which]) + of_skin * deep
+    push = of_hair * (keep - distance) + of_skin * deep
     slip = rows_at(velocities, which) - rows_at(touch.velocity, which)
     sliding = row_length(slip - row_dot(slip, normals)[:, None] * normals)
     return Hold(

@@ -103,38 +103,28 @@ class Dynamics:
         with self.timer.stage("springs"):
             return self.springs.at(positions, settings.elastic_modulus)
 
-    def holds(
-        self, positions: Floats, velocities: Floats, touch: Touching, distance: Floats, settings: DynamicsSettings
-    ) -> tuple[Hold, Hold]:
-        """The strands that are taut, and hair pressed on the body.
-
-        positions [m], velocities [m/s]: (n, 3). distance: from the planes of ``touch`` [m], (n,).
-        """
+    def holds(self, velocities: Floats, touch: Touching, settings: DynamicsSettings) -> tuple[Hold, Hold]:
+        """The strands that are taut, and hair pressed on the body, where ``touch`` is seen from. velocities: [m/s], (n, 3)."""
         with self.timer.stage("springs"):
-            taut = self.strands.taut(positions, velocities, touch, distance)
+            taut = self.strands.taut(velocities, touch)
         with self.timer.stage("contact"):
-            return taut, pressed(self.model, touch, distance, velocities, settings.body_friction)
+            return taut, pressed(self.model, touch, velocities, settings.body_friction)
 
     def guided(self, start: Floats, velocities: Floats, now: Circumstances) -> Floats:
         """Velocities [m/s] after hands have had their say, (n, 3), in a step from ``start`` [m], (n, 3)."""
         return velocities if now.parting is None else now.parting.guided(start, velocities)
 
     def put_back(
-        self,
-        positions: Floats,
-        velocities: Floats,
-        seen_from: Floats,
-        touch: Touching,
-        now: Circumstances,
-        frame: HeadFrame,
+        self, positions: Floats, velocities: Floats, touch: Touching, now: Circumstances, frame: HeadFrame | None
     ) -> tuple[Floats, Floats]:
         """Positions [m] and velocities [m/s], (n, 3), with what is too deep or too far put back and stopped.
 
-        touch: the planes as they were seen from other positions, (n, 3). frame: of the head, for both.
+        touch: the body seen from elsewhere. frame: of the head, for another look at it; without, its planes are the same.
         """
         with self.timer.stage("contact"):
             drawn = self.tethers.drawn_along(positions) if now.parting is None else positions
-            return put_back(self.model, drawn, velocities, looked_again(self.body, touch, seen_from, drawn, frame))
+            there = looked_again(self.body, touch, drawn, frame) if frame else touch.seen_from(drawn)
+            return put_back(self.model, drawn, velocities, there)
 
     def turn(self, links: LinkState, directions: Floats) -> Floats:
         """Hair directions where ``links`` are (eq. 15), unit, (n, 3)."""

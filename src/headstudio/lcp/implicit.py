@@ -22,6 +22,7 @@ import numpy as np
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats
+from .contact import Touching
 from .dynamics import Circumstances, Dynamics
 from .generalised_alpha import FORCE_AT, WEIGHT, gone_on, looking_back, on_the_way, way_begun
 from .inertia import apparent_acceleration
@@ -33,10 +34,12 @@ from .spring_matrix import SpringMatrix
 # turns far. And more, for accuracy, as long as few particles leave the time for it.
 _FEWEST_PARTS, _MOST_PARTS = 2, 4
 _PART_LENGTH = 0.06  # [m]
-_PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
+_PARTICLES_IN_TIME = 8000  # particles times parts that keep up with real time
+# How often a step looks for the planes of the body: they are tangents, and good for some way.
+_LOOKS = 2
 # Stiffer hair is turned too far by a part of half a step, and breaks [Pa].
 _MODULUS_CARRIED = 1e6
-# Of what a solution leaves. A third part in a step brings more than solutions that are twice as good, and costs the same.
+# Of what a solution leaves. More parts in a step bring more than solutions that are twice as good, and cost the same.
 _TOLERANCE = 5e-3
 
 
@@ -64,15 +67,18 @@ class ImplicitSolver:
         """The state one step of dt [s] later, by section 3.1 of the paper.
 
         Hair-hair interactions are the dear part and change slowly: they are found once, for the middle of the step.
-        Springs, inertia and contact go through the step in ``parts``.
+        Springs, inertia and contact go through the step in ``parts``. The body is looked at ``_LOOKS`` times, and again when
+        hair has come to where it was heading.
         """
         parts = self.parts(now.settings)
         outer = self.dynamics.outer_acceleration(_halfway(state, dt, parts), now, dt)
         self._stiffen(now.settings, dt / parts)
         frame = now.at(state.time)
-        for _ in range(parts):
-            frames = frame, (frame := now.at(state.time + dt / parts))
-            state = self._part(state, now, frames, outer, dt / parts)
+        for some in np.array_split(np.arange(parts), _LOOKS):
+            seen = None
+            for k in some:
+                frames = frame, (frame := now.at(state.time + dt / parts))
+                state, seen = self._part(state, now, frames, outer, dt / parts, seen, look_again=k == some[-1])
         return state
 
     def _stiffen(self, settings: DynamicsSettings, dt: float) -> None:
@@ -82,11 +88,19 @@ class ImplicitSolver:
             self._stiffened = (settings.stiffness, dt)
 
     def _part(
-        self, state: HairState, now: Circumstances, frames: tuple[HeadFrame, HeadFrame], outer: Floats, dt: float
-    ) -> HairState:
+        self,
+        state: HairState,
+        now: Circumstances,
+        frames: tuple[HeadFrame, HeadFrame],
+        outer: Floats,
+        dt: float,
+        seen: Touching | None,
+        look_again: bool,
+    ) -> tuple[HairState, Touching]:
         """One step of the generalised-alpha method of dt [s] under the accelerations ``outer`` [m/s^2], (n, 3).
 
-        frames: of the head at its beginning and at its end.
+        frames: of the head at its beginning and at its end. seen: the body, as it was looked at in the part before; without,
+        it is looked at. look_again: at its end. Gives the body as it was seen, too.
         """
         dynamics, settings = self.dynamics, now.settings
         model = dynamics.model
@@ -109,9 +123,8 @@ class ImplicitSolver:
         force += mass * on_the_way(*apparent)
         force += dynamics.springs.forces(links, load, v)
         # The planes that particles are heading for, as far away as they are when forces are felt.
-        touch = dynamics.touch(ahead, frames[1])
-        distance = touch.distance_after((FORCE_AT - 1.0) * (ahead - x - dt * touch.velocity))
-        holds = dynamics.holds(x_felt, v, touch, distance, settings)
+        touch = seen.seen_from(ahead, dt) if seen else dynamics.touch(ahead, frames[1])
+        holds = dynamics.holds(v, touch.seen_from(x_felt, (FORCE_AT - 1.0) * dt), settings)
         for hold in holds:
             force[hold.which] += hold.forces()
         right = mass * (v_hat - v) + g / FORCE_AT * (force - settings.air_friction * mass * v)
@@ -123,13 +136,13 @@ class ImplicitSolver:
         free = v + change
         guided = dynamics.guided(x_hat, free, now)
         x_free = x_hat + g * guided
-        x_new, v_new = dynamics.put_back(x_free, guided, ahead, touch, now, frames[1])
+        x_new, v_new = dynamics.put_back(x_free, guided, touch, now, frames[1] if look_again else None)
         # What hands and limits did is no part of the slopes.
         before = (
             looking_back(x_free, x, x_before) + (x_new - x_free),
             looking_back(free, v, v_before) + (v_new - free),
         )
-        return HairState(x_new, v_new, directions, state.time + dt, before)
+        return HairState(x_new, v_new, directions, state.time + dt, before), touch
 
     def _earlier(
         self, state: HairState, now: Circumstances, frame: HeadFrame, outer: Floats, dt: float
@@ -139,8 +152,7 @@ class ImplicitSolver:
         x, v = state.positions, state.velocities
         links = dynamics.links(x, settings)
         force = dynamics.springs.forces(links, dynamics.springs.load(links, settings), v)
-        touch = dynamics.touch(x, frame)
-        for hold in dynamics.holds(x, v, touch, touch.distance, settings):
+        for hold in dynamics.holds(v, dynamics.touch(x, frame), settings):
             force[hold.which] += hold.forces(dt / dynamics.model.mass[hold.which])
         acceleration = outer - settings.air_friction * v
         acceleration += apparent_acceleration(frame, x, v, settings.gravity)

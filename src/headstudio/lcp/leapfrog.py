@@ -53,11 +53,11 @@ class LeapfrogSolver:
         acceleration += dynamics.bending_acceleration(settings, x, v, state.directions, dt)
         links = dynamics.links(x, settings)
         acceleration += dynamics.springs.forces(links, dynamics.springs.load(links, settings), v) / mass
-        for hold in dynamics.holds(x, v, touch, touch.distance, settings):
+        for hold in dynamics.holds(v, touch, settings):
             held = mass[hold.which]
             acceleration[hold.which] += hold.forces(dt / held[:, 0]) / held
         v = (v + dt * acceleration) / (1.0 + dt * settings.air_friction)
         v[dynamics.model.fixed] = 0.0
         v = dynamics.guided(x, v, now)
-        x, v = dynamics.put_back(x + dt * v, v, x, touch, now, frame)
+        x, v = dynamics.put_back(x + dt * v, v, touch, now, frame)
         return HairState(x, v, dynamics.turn(dynamics.links(x, settings), state.directions), state.time + dt)

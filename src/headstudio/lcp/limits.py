@@ -25,12 +25,11 @@ def put_back(model: HairModel, positions: Floats, velocities: Floats, touch: Tou
     and then none further from its root than ``LONGEST_REACH`` times its length, or goes on outward. Next to the root, closer
     than to its neighbours, it may be off by as much as a neighbour.
     """
-    distance = touch.distance
     back, stopped = positions.copy(order="K"), velocities.copy(order="K")
     deepest = np.minimum(touch.keep, 0.0) - _DEEPEST
-    deep = np.flatnonzero((distance < deepest) & ~model.fixed)
+    deep = np.flatnonzero((touch.distance < deepest) & ~model.fixed)
     normals = rows_at(touch.normals, deep)
-    back[deep] += (deepest - distance)[deep, None] * normals
+    back[deep] += (deepest - touch.distance)[deep, None] * normals
     approach = row_dot(rows_at(velocities - touch.velocity, deep), normals)
     stopped[deep] -= np.minimum(approach, 0.0)[:, None] * normals
 
@@ -39,7 +38,7 @@ def put_back(model: HairModel, positions: Floats, velocities: Floats, touch: Tou
     longest = s + (LONGEST_REACH - 1.0) * np.maximum(s, model.spacing)
     far = np.flatnonzero((reach > longest) & ~model.fixed)
     inward = -rows_at(from_root, far) / reach[far, None]
-    way = led_along(inward, far, touch, distance)
+    way = led_along(inward, far, touch)
     # A way along the body brings less than the straight one.
     back[far] += ((reach - longest)[far] / np.maximum(row_dot(way, inward), _LEAST_GAIN))[:, None] * way
     stopped[far] -= np.minimum(row_dot(rows_at(stopped, far), way), 0.0)[:, None] * way

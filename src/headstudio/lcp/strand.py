@@ -26,14 +26,14 @@ _THIN = 0.001  # as if hair were at least so thick [m]
 _TAUTNESS = 3000.0  # A: stretched by a hundredth, a strand carries three times its weight [m/s^2]
 
 
-def led_along(ways: Floats, which: Ints, touch: Touching, distance: Floats) -> Floats:
+def led_along(ways: Floats, which: Ints, touch: Touching) -> Floats:
     """Ways of the particles ``which``, (k, 3), that do not lead into the body: the more along it, the more hair is pressed.
 
-    ways: unit vectors, (k, 3). distance: from the planes of ``touch`` [m], (n,).
+    ways: unit vectors, (k, 3).
     """
     normals = rows_at(touch.normals, which)
     keep = touch.keep[which]
-    pressed = np.clip((keep - distance[which]) / np.maximum(keep, _THIN), 0.0, 1.0)
+    pressed = np.clip((keep - touch.distance[which]) / np.maximum(keep, _THIN), 0.0, 1.0)
     into = pressed * np.minimum(row_dot(ways, normals), 0.0)
     along = ways - into[:, None] * normals
     # A way straight into the body leads nowhere.
@@ -52,12 +52,12 @@ class Strands:
         self._stiffness = model.mass * self.square_frequency
         self._damping = 2.0 * model.mass * np.sqrt(self.square_frequency)  # critical
 
-    def taut(self, positions: Floats, velocities: Floats, touch: Touching, distance: Floats) -> Hold:
-        """Those that reach further than they are long. positions [m], velocities [m/s]: head frame, (n, 3).
+    def taut(self, velocities: Floats, touch: Touching) -> Hold:
+        """Those that reach further than they are long, where ``touch`` is seen from. velocities: head frame [m/s], (n, 3).
 
-        distance: from the planes of ``touch`` [m], (n,). Hair on the body is drawn along it.
+        Hair on the body is drawn along it.
         """
-        from_root = positions - self._root_points
+        from_root = touch.positions - self._root_points
         reach = row_length(from_root)
         which = np.flatnonzero(reach > self._length)
         length, stiffness = reach[which], self._stiffness[which]
@@ -65,7 +65,7 @@ class Strands:
         outward = rows_at(from_root, which) / length[:, None]
         return Hold(
             which,
-            direction=-led_along(-outward, which, touch, distance),
+            direction=-led_along(-outward, which, touch),
             push=-pull,
             slip=rows_at(velocities, which),
             stiffness_along=stiffness,
