@@ -86,7 +86,7 @@ class SpringMatrix:
         for hold in holds:
             _add(of_diagonal, self._place[hold.which], hold, g)
         of_links *= -1.0
-        np.take(self._six.ravel(), self._source, out=self._matrix.data, mode="clip")
+        self._matrix.data = self._six.ravel().take(self._source)
         block = of_diagonal.copy()
         block[[0, 3, 5]] += self._bending_diagonal
         _invert_symmetric(block, self._inverse)
