@@ -43,16 +43,13 @@ class Blade:
         what part of the blade's raggedness each ends before the plane, (n,).
         """
         offset = points - self.place.astype(np.float32)
-        height = offset @ self.normal.astype(np.float32) + np.float32(self.ragged) * early[:, None]
-        near = True
+        height = offset @ self.normal.astype(np.float32)
+        squared = np.einsum("ijk,ijk->ij", offset, offset)
         if self.reach < EVERYWHERE:
-            squared = np.einsum("ijk,ijk->ij", offset, offset)
-            aside = np.maximum(squared - (offset @ self.normal.astype(np.float32)) ** 2, 0.0) / np.float32(
-                self.reach**2
-            )
+            aside = np.maximum(squared - height**2, 0.0) / np.float32(self.reach**2)
             height -= np.float32(_CURVE * self.reach) * aside ** (_POWER // 2)
-            near = squared < self.reach**2
-        crosses = (height > 0) & near
+        height += np.float32(self.ragged) * early[:, None]
+        crosses = (height > 0) & (squared < self.reach**2)
         last = points.shape[1] - 1
         first = np.where(crosses.any(axis=1), crosses.argmax(axis=1), last + 1)
         cut = np.flatnonzero((first > 0) & (first <= last))
