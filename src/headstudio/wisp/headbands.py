@@ -8,27 +8,31 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..head.mesh import Floats, Ints
+from ..head.smooth import smoothstep
 from .accessories import Band, band_path
 from .paths import STEP
 from .strands import Singles
 from .surroundings import Surroundings
 
 # How fast hair comes up again beside the band [m per m], and how far beside it is felt at all [m].
-_RISE, _REACH = 0.35, 0.03
+_RISE, _REACH = 0.3, 0.045
 # How hard the edge is: hair as high as the band goes in by a sixth, and hair well below is left alone.
 _EDGE = 4
+# Behind the ears hair falls over the ends of a band: so far from them it presses on none, and on all [m].
+_TUCKED = (0.02, 0.08)
 _APPROACHES = 2  # the way straight to the skin bends
 
 
 @dataclass(frozen=True, eq=False)
 class Headband:
     """A band over the head: the middle of it [m], (n, 3), unit directions along it, (n, 3), how high hair may stand under
-    it [m], (n,), half its width [m], and the body it is on.
+    it [m], (n,), how firmly it presses, 0 to 1, (n,), half its width [m], and the body it is on.
     """
 
     path: Floats
     along: Floats
     room: Floats
+    firm: Floats
     half_width: float
     surroundings: Surroundings
 
@@ -38,7 +42,9 @@ class Headband:
         path = band_path(band, surroundings)
         along = np.gradient(path, axis=0)
         along /= np.linalg.norm(along, axis=1, keepdims=True)
-        return cls(path, along, surroundings.distance(path).astype(np.float64), 0.5 * band.width, surroundings)
+        room = surroundings.distance(path).astype(np.float64)
+        to_end = STEP * np.minimum(np.arange(len(path)), np.arange(len(path))[::-1])
+        return cls(path, along, room, smoothstep(to_end, *_TUCKED), 0.5 * band.width, surroundings)
 
     def pressed(self, points: Singles, owner: Ints) -> Singles:
         """Strands, (n, k, 3) [m], with what stands above the band pressed under it; in place. owner: not asked for."""
@@ -54,11 +60,14 @@ class Headband:
         height = self.surroundings.distance(flat[near])
         rise = height - self.room[nearest]
         sideways = np.sqrt(np.maximum(np.einsum("ij,ij->i", offset, offset) - rise**2 - lengthwise**2, 0.0))
+        # Beside the band, and beyond its ends.
         beside = np.maximum(sideways - self.half_width - 0.5 * spacing, 0.0)
-        # Nothing is pressed beyond the ends of the band.
-        under = (np.abs(lengthwise) <= STEP) & (beside < _REACH) & (height > 0)
-        near, height, room = near[under], height[under], self.room[nearest[under]] + _RISE * beside[under]
-        wanted = height * (1.0 + (height / room) ** _EDGE) ** (-1.0 / _EDGE)
+        off = np.hypot(beside, np.maximum(np.abs(lengthwise) - STEP, 0.0))
+        under = (off < _REACH) & (height > 0)
+        near, nearest, height, off = (each[under] for each in (near, nearest, height, off))
+        room = self.room[nearest] + _RISE * off
+        lower = 1.0 - (1.0 + (height / room) ** _EDGE) ** (-1.0 / _EDGE)
+        wanted = height * (1.0 - self.firm[nearest] * smoothstep(1.0 - off / _REACH, 0.0, 0.7) * lower)
         for _ in range(_APPROACHES):
             height, away = self.surroundings.distance_and_gradient(flat[near])
             flat[near] += (wanted - height)[:, None] * away
