@@ -155,15 +155,11 @@ def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Fl
     It goes on over the breast or down the back, whichever way the slope is, fans out a little, and not more: a thread would
     slide straight down, and hair is held by other hair. Farther down it lies against the body.
     """
-    distance, outward = surroundings.distance_and_gradient(grid.nodes)
-    # Distances are known around the body, and beyond their grid are those at its border.
-    known = surroundings.skin_grid
-    nearest = np.clip(grid.nodes, known.origin, known.origin + known.spacing * (np.array(known.shape) - 1))
-    off = distance + np.linalg.norm(grid.nodes - nearest, axis=1)
-    upward = np.clip(outward[:, 1:2], 0.0, 1.0).astype(np.float64)
+    off, outward = surroundings.distance_and_gradient_anywhere(grid.nodes)
+    upward = np.clip(outward[:, 1:2], 0.0, 1.0)
     carried = upward * outward
     carried[:, 0] *= (_FANS + _HELD) * _fade(np.abs(places[:, 0]), *_BESIDE_HEAD)[:, 0] - _HELD
-    forward = outward[:, 2].astype(np.float64)
+    forward = outward[:, 2]
     carried[:, 2] += _OVER * upward[:, 0] * np.tanh(forward / _UNDECIDED) * np.exp(-((forward / _CREST) ** 2))
     beside = (1.0 - _fade(off, *_OFF_BODY[:2])) * _fade(off, *_OFF_BODY[2:]) * _fade(places[:, 1], *_BELOW)
     leans = _LEANS * beside * (1.0 - upward**2) * outward

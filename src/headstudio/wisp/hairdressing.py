@@ -14,7 +14,7 @@ from .braiding import plait
 from .constraints import Constraint, DirectionConstraint, PointConstraint, TrajectoryConstraint
 from .force import ForceField
 from .operations import AlongPath, Braid, Bun, Constrain, Operation, Place, Step, Tie, ToPoint, Updo
-from .paths import along_skin, hang, off_skin, outward, sideways
+from .paths import along_skin, hang, off_skin, sideways
 from .queues import Queue
 from .surroundings import Surroundings
 
@@ -177,7 +177,8 @@ def grip_of(operation: Operation, surroundings: Surroundings, force: ForceField,
 def _knot(surroundings: Surroundings, place: Place, radius: float) -> tuple[Floats, Floats]:
     """Where a tie of ``radius`` [m] sits for ``place``, clear of the skin [m], (3,), and the direction away from it, (3,)."""
     point = off_skin(surroundings, surroundings.proportions.place(np.array(place))[None], radius + _OFF_SKIN)
-    return point[0], outward(surroundings, point)[0]
+    # An ear beside a tie does not turn it.
+    return point[0], surroundings.around_ears(point)[0].astype(np.float64)
 
 
 def _across(away: Floats) -> tuple[Floats, Floats]:

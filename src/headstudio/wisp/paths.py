@@ -46,11 +46,14 @@ def hang(
     points = [np.asarray(start, dtype=np.float64)]
     direction = np.asarray(first, dtype=np.float64)
     for _ in range(max(round(length / STEP), 1)):
-        distance, away = surroundings.distance_and_gradient(points[-1][None])
+        distance, away = surroundings.distance_and_gradient_anywhere(points[-1][None])
         beside = 1.0 - min(max(float(distance[0]) - clearance, 0.0) / _BESIDE, 1.0)
         pull = force.at(points[-1][None])[0] - _TO_BODY * beside * away[0]
         direction = row_unit((direction + _TURN * pull)[None], otherwise=down[None])[0]
-        free = off_skin(surroundings, (points[-1] + STEP * direction)[None], clearance)[0]
+        free = points[-1] + STEP * direction
+        for _ in range(_APPROACHES):
+            distance, away = surroundings.distance_and_gradient_anywhere(free[None])
+            free = free + max(clearance - float(distance[0]), 0.0) * away[0]
         direction = row_unit((free - points[-1])[None], otherwise=down[None])[0]
         points.append(points[-1] + STEP * direction)
     return _smooth(np.array(points))

@@ -70,6 +70,13 @@ class Surroundings:
         columns /= np.maximum(np.sqrt(dot(columns, columns)), np.float32(1e-6))
         return distance, gradient
 
+    def distance_and_gradient_anywhere(self, points: Floats) -> tuple[Floats, Floats]:
+        """Both beyond the grid of the distances, too, to the breadth of its margin: (k,) [m] and unit vectors, (k, 3)."""
+        grid = self.skin_grid
+        known = np.clip(points, grid.origin, grid.origin + grid.spacing * (np.array(grid.shape) - 1))
+        distance, gradient = self.distance_and_gradient(known)
+        return distance + np.linalg.norm(points - known, axis=1), gradient.astype(np.float64)
+
     def keep_outside(self, points: Singles, margin: float) -> Singles:
         """``points`` [m], float32, (k, 3), with those nearer to the skin than ``margin`` [m] moved straight out to it.
 
