@@ -113,7 +113,7 @@ class Surroundings:
             self._near_tables[margin] = self.distances < margin + np.sqrt(0.75) * self.skin_grid.spacing
         return self._near_tables[margin]
 
-    def around_ears(self, points: Singles) -> Singles:
+    def around_ears(self, points: Floats | Singles) -> Singles:
         """Unit direction away from a body whose ears are no leaves but bumps, (k, 3), at ``points`` [m], (k, 3): from both
         sides of an ear it leads around its rim.
         """
