@@ -144,7 +144,7 @@ _LYING, _LOW = (0.008, 0.05), (-1.5, -1.0)
 _OVER, _UNDECIDED, _CREST = 1.2, 0.04, 0.5
 # Of the slope to the side hair follows so much beside the neck, and so much less it is held against it farther out, in half
 # breadths of the head.
-_FANS, _HELD, _BESIDE_HEAD = 0.3, 1.6, (0.7, 1.3)
+_FANS, _HELD, _BESIDE_HEAD = 0.3, 1.1, (0.7, 1.3)
 # Below the shoulders: how strongly hair is drawn to breast and back that hangs beside them, how far off [m], how low.
 _LEANS, _OFF_BODY, _BELOW = 0.4, (0.005, 0.02, 0.05, 0.1), (-2.0, -1.5)
 
