@@ -63,6 +63,17 @@ def test_what_is_too_far_out_is_put_back_within_its_reach():
     np.testing.assert_array_equal(stopped[2], v[2])
 
 
+def test_hair_that_is_caught_behind_an_edge_gives_to_the_body_and_to_its_length():
+    """What presses it out leads away from its root: as far as that is too far, it may be deeper, to an end."""
+    chain = hanging_chain(2, arc_length=np.array([-0.002, 0.1]))
+    for too_far, depth in ((-0.01, 0.001), (0.002, 0.003), (0.02, 0.0045)):
+        at_skin = -(LONGEST_REACH * 0.1 + too_far)
+        x = np.array([[0.0, 0.0, 0.0], [0.0, at_skin + 0.03, 0.0]])
+        touch = Touching(x, np.array([1.0, -0.031]), np.tile(-UP, (2, 1)), np.zeros((2, 3)), np.full(2, 0.005))
+        back, _ = put_back(chain, x, np.zeros((2, 3)), touch)
+        assert back[1, 1] - at_skin == pytest.approx(depth - 0.001, abs=1e-9)
+
+
 def test_hair_ends_outside_however_fast_it_came(hair, ball):
     """By no more than the planes are off."""
     rng = np.random.default_rng(1)

@@ -14,8 +14,8 @@ from .strand import led_along
 LONGEST_REACH = 1.035
 """A taut strand (strand.py) gives way to this much of its length."""
 LONGEST_LINK = 1.08
-_LEAST_GAIN = 0.3  # of a way along the body over the straight one
-_DEEPEST = 0.001  # that hair may be below the surface [m]
+_LEAST_GAIN = 0.2  # of a way along the body over the straight one
+_DEEPEST, _DEEPEST_CAUGHT = 0.001, 0.0045  # that hair may be below the surface [m]
 
 
 def put_back(model: HairModel, positions: Floats, velocities: Floats, touch: Touching) -> tuple[Floats, Floats]:
@@ -23,19 +23,25 @@ def put_back(model: HairModel, positions: Floats, velocities: Floats, touch: Tou
 
     touch: seen from the positions. None ends deeper than ``_DEEPEST`` below its plane, or goes on into the body (eq. 3.21),
     and then none further from its root than ``LONGEST_REACH`` times its length, or goes on outward. Next to the root, closer
-    than to its neighbours, it may be off by as much as a neighbour.
+    than to its neighbours, it may be off by as much as a neighbour. Hair that is caught behind an edge can have neither: so
+    far as it reaches too far it may be deeper, up to ``_DEEPEST_CAUGHT``.
     """
     back, stopped = positions.copy(order="K"), velocities.copy(order="K")
+    s = model.arc_length
+    longest = s + (LONGEST_REACH - 1.0) * np.maximum(s, model.spacing)
     deepest = np.minimum(touch.keep, 0.0) - _DEEPEST
     deep = np.flatnonzero((touch.distance < deepest) & ~model.fixed)
     normals = rows_at(touch.normals, deep)
-    back[deep] += (deepest - touch.distance)[deep, None] * normals
+    out = (deepest - touch.distance)[deep]
+    back[deep] += out[:, None] * normals
+    too_far = row_length(rows_at(back - model.root_points, deep)) - longest[deep]
+    caught = np.clip(too_far, 0.0, np.minimum(out, _DEEPEST_CAUGHT - _DEEPEST))
+    back[deep] -= caught[:, None] * normals
     approach = row_dot(rows_at(velocities - touch.velocity, deep), normals)
     stopped[deep] -= np.minimum(approach, 0.0)[:, None] * normals
 
     from_root = back - model.root_points
-    reach, s = row_length(from_root), model.arc_length
-    longest = s + (LONGEST_REACH - 1.0) * np.maximum(s, model.spacing)
+    reach = row_length(from_root)
     far = np.flatnonzero((reach > longest) & ~model.fixed)
     inward = -rows_at(from_root, far) / reach[far, None]
     way = led_along(inward, far, touch)
