@@ -29,9 +29,12 @@ SIZE = (288, 288)
 
 @pytest.fixture(scope="module")
 def stage() -> Stage:
-    """The mannequin with a thousand particles of hair, its head turned a little."""
+    """The mannequin with a thousand particles of hair, its head turned a little.
+
+    Nothing moves the hair, so it is short enough to turn with the head and not into the shoulders.
+    """
     head = mannequin()
-    hair = grow_hair(grow_scalp(head, ScalpSettings()), Body.around(head), HairSettings(particles=1000))
+    hair = grow_hair(grow_scalp(head, ScalpSettings()), Body.around(head), HairSettings(particles=1000, length=0.17))
     frame = HeadFrame(Rotation.from_rotvec([0.1, 0.35, 0.0]))
     return Stage(head, frame, HairOnStage(hair, hair.rest_positions, hair.rest_directions))
 
