@@ -52,10 +52,11 @@ def _gravity(places: Floats, styling: StylingSettings) -> Floats:
 
 
 def _back(places: Floats, styling: StylingSettings) -> Floats:
-    # Around the skull as a comb goes: up the forehead, back over the top, and down behind. Below that nothing pulls any
-    # more, so that what was combed back can fall. Before an ear it goes up, to pass above it.
-    height = np.maximum(places[:, 1], 0.4 * _fade(-places[:, 2], 0.0, 0.8)[:, 0])
-    way = np.stack([0 * places[:, 0], places[:, 2], -height], axis=1)
+    # Around the skull as a comb goes: up the forehead, back over the top, and down behind it. Lower down it keeps hair off
+    # the face, and behind the head nothing pulls any more, so that what was combed back can fall. Before an ear it goes up,
+    # to pass above it.
+    over = np.where(places[:, 2] > 0.0, 1.0, 1.0 - _fade(places[:, 1], -0.8, -0.3)[:, 0])
+    way = np.stack([0 * places[:, 0], over * places[:, 2], -np.maximum(places[:, 1], 0.4)], axis=1)
     way[:, 1] += before_ears(places)
     return _fade(-places[:, 2], 0.3, 1.1) * row_unit(way, otherwise=np.zeros_like(way))
 
