@@ -195,7 +195,7 @@ def _coil(knot: Floats, away: Floats, radius: float, thickness: float, length: f
     angle = np.arange(0.0, length / (0.5 * radius), 0.05)
     # Windings lie side by side, as far apart as the lock is thick, until they are as wide as the bun.
     part = np.minimum(_FIRST + angle * _APART * thickness / (2 * np.pi * radius), 1.0)
-    rise = _LOWEST * thickness + (height - _LOWEST * thickness) * (1.0 - part**2)
+    rise = _LOWEST * thickness + (height - _LOWEST * thickness) * (1.0 - part**2) ** 0.7
     circle = np.cos(angle)[:, None] * side + np.sin(angle)[:, None] * up
     winding = knot + radius * part[:, None] * circle + rise[:, None] * away
     stem = knot + np.linspace(0.0, 1.0, 8, endpoint=False)[:, None] * (winding[0] - knot)
