@@ -26,6 +26,9 @@ DRESSED: dict[str, tuple[str, dict[str, Any]]] = {
     "long-gray-mannequin": ("straight-long", {"head.source": "mannequin"}),
     "braid-auburn-back": ("three-strand-braid", {}),
     "short-brown-man": ("mens-short", {"head.masculine": 1.0, "head.age": 0.6}),
+    "pigtails-copper-mannequin": ("pigtails", {"head.source": "mannequin"}),
+    "swept-silver-old": ("swept-back", {"head.age": 0.8}),
+    "bun-blond-behind": ("bun", {}),
 }
 
 # The three views that others were given of this hair, in metres and watts.
@@ -58,7 +61,7 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
     bob, curls, lob, ringlets, afro, ponytail = ({**ours, "strands": str(out / f"{style}.npz")} for style in STYLES)
     curls |= {"target": [0.0, 0.03, 0.0], "fov_degrees": 36.0}
     ringlets |= {"target": [0.0, 0.0, 0.0], "fov_degrees": 36.0}
-    long, braid, short = (
+    long, braid, short, pigtails, swept, bun = (
         {
             **SINTEL, **SMALL, "head": [str(out / f"{name}.obj")], "strands": str(out / f"{name}.npz"),
             "hair_radius_root": 0.00025, "hair_radius_tip": 0.0001,
@@ -101,7 +104,7 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
             **ponytail, "eye": [-0.75, 0.05, 0.3], "target": [0.0, 0.03, 0.0], "fov_degrees": 16.0,
             "hair_melanin": 0.5, "hair_redness": 1.0, "sun_direction": [-0.8, 0.35, 0.6],
         },
-        # The unseen three of the table.
+        # Long hair, a plait, short hair.
         "long-gray-mannequin": {
             **long, "eye": [-0.5, 0.15, 0.85], "target": [0, -0.02, 0], "fov_degrees": 36.0, "hair_melanin": 0.12,
             "hair_redness": 0.0, "sun_direction": [0.6, 0.6, 0.5], "sun_strength": 2.5, "ambient": 0.3,
@@ -113,6 +116,19 @@ def scenes(sintel: Path, out: Path) -> dict[str, Scene]:
         "short-brown-man": {
             **short, "eye": [0.6, 0.2, 0.55], "target": [0, 0.06, 0], "fov_degrees": 28.0, "hair_melanin": 0.85,
             "hair_redness": 0.3, "sun_direction": [-0.3, 0.7, 0.6], "sun_strength": 2.0, "ambient": 0.35,
+        },
+        # The unseen three of the table.
+        "pigtails-copper-mannequin": {
+            **pigtails, "eye": [-0.8, 0.1, 0.35], "target": [0, 0.0, 0.0], "fov_degrees": 34.0, "hair_melanin": 0.4,
+            "hair_redness": 0.9, "sun_direction": [-0.4, 0.35, 0.8], "sun_strength": 3.5, "ambient": 0.1,
+        },
+        "swept-silver-old": {
+            **swept, "eye": [0.75, 0.25, 0.3], "target": [0, 0.06, 0], "fov_degrees": 26.0, "hair_melanin": 0.06,
+            "hair_redness": 0.2, "sun_direction": [-0.5, 0.8, 0.1], "sun_strength": 2.2, "ambient": 0.3,
+        },
+        "bun-blond-behind": {
+            **bun, "eye": [-0.3, 0.3, -0.8], "target": [0, 0.05, 0], "fov_degrees": 28.0, "hair_melanin": 0.25,
+            "hair_redness": 0.4, "sun_direction": [0.7, 0.4, -0.2], "sun_strength": 3.0, "ambient": 0.2,
         },
     }  # fmt: skip
 

@@ -2,10 +2,15 @@
 // the eye, too, are known not to be there (the hot spot of leaves, Kuusk 1985, here for strands side by side, which are
 // circles across). A strand can stand in both ways up to radius / tan(phi / 2) from the place, phi being the azimuth
 // between them; of those nearer half do, in the mean.
-// radius_count: how many strands are met within a radius.
+// radius_count: how many strands are met within a radius, of `crossed` that stand anywhere on the way.
 float crossed_unseen(float crossed, float radius_count, float phi) {
     float within = radius_count * max(cos(0.5 * phi), 0.0) / max(sin(0.5 * phi), 1e-3);
     return crossed < within ? 0.5 * crossed * crossed / within : crossed - 0.5 * within;
+}
+
+// And of strands that are met so many radii away.
+vec4 met_unseen(vec4 strands, vec4 radii, float phi) {
+    return strands * clamp(radii * tan(min(0.5 * phi, 1.57)), 0.0, 1.0);
 }
 
 // How many times as bright soft light from the eye's side is at what is seen as in the mean over all that is there. It has met

@@ -4,10 +4,9 @@
 #include "common/shadow.glsl"
 #include "common/deep_opacity.glsl"
 #include "common/pile.glsl"
+#include "common/through_hair.glsl"
 uniform vec3 diffuse;  // albedo
 uniform mat4 hair_box; // of the light, around the hair alone, from the world
-uniform vec3 sent_forward;  // by a strand, of the light it meets
-uniform vec3 sent_back;
 in vec3 v_place;
 in vec3 v_normal;
 in vec3 v_soft;
@@ -47,8 +46,7 @@ void main() {
 
     vec3 at = (hair_box * vec4(v_place + n * 0.001, 1.0)).xyz * 0.5 + 0.5;
     float lit = n_l > 0.0 ? past_objects_at(light_box(v_place + (n + l) * 0.0015), 0.001) : 0.0;
-    vec3 through = max(going_on(pile(sent_forward, sent_back), hair_crossed(at), 0.0), past_hair(at));
-    vec3 sun = pi * radiance.rgb * n_l * lit * through;
+    vec3 sun = pi * radiance.rgb * n_l * lit * through_hair(crossed_beside(at, 0.0));
     float sheen = coat(n_v);
     colour = vec4(sun * (diffuse / pi * (1.0 - sheen) + shine) + soft / pi * (diffuse * (1.0 - sheen) + sheen), 1.0);
 }

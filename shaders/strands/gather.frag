@@ -4,6 +4,7 @@
 // mean + dot(slope, d) + dot(d, bend * d), bend being symmetric and without trace (render/soft_light.py).
 #include "common/deep_opacity.glsl"
 #include "common/pile.glsl"
+#include "common/through_hair.glsl"
 uniform sampler2D receivers;   // places in the head frame [m]
 uniform sampler2D directions;  // right, up, towards the sky, and 9 weights, for every direction; 2 k and 2 k + 1 are opposite
 uniform sampler2D body;        // radiance and depth, as seen from every direction
@@ -11,8 +12,6 @@ uniform sampler2D far_body;    // and of the last that faces there: what lies un
 uniform int tiles;
 uniform vec4 body_sphere;      // centre and radius [m] of what the views of the body show
 uniform vec4 hair_sphere;      // and of those of the hair
-uniform vec3 rate;             // of a pile of this hair, for the counts in these maps
-uniform vec3 endless;
 uniform float filling;
 uniform vec3 sky_above;
 uniform vec3 sky_below;
@@ -65,16 +64,6 @@ vec3 in_texture(int k, vec3 at) {
 
 bool inside(vec2 at) {
     return all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, vec2(1.0)));
-}
-
-// What hair lets through, in the mean over four texels.
-vec3 through_hair(Crossed crossed) {
-    vec3 through = vec3(0.0);
-    for (int k = 0; k < 4; ++k) {
-        through += crossed.shares[k]
-            * max(let_through_by(Pile(rate, endless), crossed.counts[k]), exp(-opaque * crossed.counts[k]));
-    }
-    return through;
 }
 
 // How much hair there is, from 0 to 1 (common/soft_light.glsl).

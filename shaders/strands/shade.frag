@@ -13,6 +13,7 @@ uniform sampler2D hair_colours;
 uniform bool coloured;         // every point has a colour of its own
 uniform vec3 hair_absorption;  // else: per radius
 uniform float colour_slope;
+uniform float followed;        // how far light is followed from strand to strand (render/fibre.py: followed)
 uniform bool fibre_model;      // Marschner's lobes, or Kajiya and Kay's
 uniform float light_widening;  // how many times too thick strands are in the light's map
 uniform int light_points;      // so many points are of strands that are in it
@@ -69,20 +70,35 @@ void main() {
     vec3 at = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
     float texels = 2.0 * point.w * light_widening * float(textureSize(near_counts, 0).x) / box_size;
     float own = texel.x + texel.y * point_row < light_points ? own_count(texels) : 0.0;
-    vec2 count = hair_crossed(at, own);
-    // No other strand is so near that its half chord and this one's, pi / 4 radii each in the mean, would meet: of what the
-    // map has counted on the last of the way there is nothing, for strands do not stand in one another.
+    // No other strand is so near that its half chord and this one's, pi / 4 radii each in the mean, would meet: strands do not
+    // stand in one another. What is nearer is this strand itself.
     float cos_in = sqrt(max(1.0 - sin_in * sin_in, 1e-6));
-    float radius_count = count.y * point.w / (box_size * cos_in);
-    float met = shadow.x < 0.5 ? 0.0 : count.x;
-    float clear = min(0.5 * pi * radius_count, met), crossed = met - clear;
-    float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - own - count.x, 0.0);
+    float radius = point.w / (box_size * cos_in), near = 0.5 * pi * radius;
+    Crossed way = crossed_beside(at - vec3(0.0, 0.0, near), own);
+    float count = dot(way.counts, way.shares), rate = dot(way.rates, way.shares);
+    float radius_count = rate * radius, clear = rate * near;
+    float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - own - count, 0.0);
+    float crossed = 0.0, unseen = 0.0;
+    if (shadow.x >= 0.5) {
+        crossed = count;
+        unseen = dot(met_unseen(way.firsts, (way.depths + near) / radius, phi), way.shares)
+            + crossed_unseen(count - dot(way.firsts, way.shares) + clear, radius_count, phi)
+            - crossed_unseen(clear, radius_count, phi);
+    }
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
 
     mat4x3 sent_in = albedo(sin_in, absorption), sent = albedo(sin_out, absorption);
-    Pile pile_in = pile(on(sent_in), back(sent_in)), pile_out = pile(on(sent), back(sent));
-    float direct = exp(crossed_unseen(clear, radius_count, phi) - crossed_unseen(met, radius_count, phi));
-    vec3 passed = passing(pile_in, crossed, behind), scattered = passed - exp(-crossed);
+    // What is there once light has gone on, and what of that strands behind send back.
+    vec3 passed = vec3(0.0), returned = vec3(0.0);
+    float kept = followed;
+    for (int k = 0; k < 2; ++k, kept *= followed) {
+        Pile pile_in = pile(kept * on(sent_in), kept * back(sent_in));
+        vec3 here = going_on(pile_in, crossed, behind);
+        passed += (k == 0 ? 2.0 : -1.0) * here;
+        returned += (k == 0 ? 2.0 : -1.0) * here * sent_back_by(pile_in, behind);
+    }
+    float direct = exp(-unseen);
+    vec3 scattered = max(passed - exp(-crossed), 0.0);
 
     // Of the soft light what a strand turns to the eye comes from the cone that mirrors it. There, by the azimuth from the
     // eye, it is level + aside cos(phi) + twice cos(2 phi).
@@ -101,8 +117,8 @@ void main() {
         vec4 wider = vec4(min(crossed, 8.0) * variances.y);
         from_light = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)))
             + scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider))
-            + passed * on(sent_in) * sent_back_by(pile_in, behind)
-                * along_hair(sin_in, sin_out, vec4(0.0)).z * 0.5 * max(cos(phi), 0.0);
+            + returned * on(sent_in) * along_hair(sin_in, sin_out, vec4(0.0)).z * 0.5 * max(cos(phi), 0.0);
+        Pile pile_out = pile(on(sent), back(sent));
         // Half of what comes is sky; the rest of that half has met strands.
         vec3 met_soft = -log(clamp(4.0 * level / max(sky.rgb + ground.rgb, 1e-6), 0.05, 1.0)) / max(pile_out.rate, 0.05);
         vec3 gain = unseen_gain(met_soft, pile_out.rate, radius_count);
@@ -114,11 +130,18 @@ void main() {
         vec3 eyeward_half = max(level + 0.25 * pi * aside + twice / 3.0, 0.0);
         vec3 other_half = max(level - 0.25 * pi * aside + twice / 3.0, 0.0);
         vec3 head_to_eye = turned(to_eye, -head_turn.xyz);
-        vec3 back_before = sent_back_by(pile_out, strands_towards(soft, head_to_eye));
-        vec3 back_behind = sent_back_by(pile_out, strands_towards(soft, -head_to_eye));
-        vec3 again = 1.0 / (1.0 - back_before * back_behind);
-        from_behind = max(from_behind, 0.0) + on(sent) * back_behind * again * (eyeward_half + back_before * other_half);
-        from_before = max(from_before, 0.0) + back(sent) * back_before * again * (other_half + back_behind * eyeward_half);
+        float before = strands_towards(soft, head_to_eye), after = strands_towards(soft, -head_to_eye);
+        vec3 more_behind = vec3(0.0), more_before = vec3(0.0);
+        kept = followed;
+        for (int k = 0; k < 2; ++k, kept *= followed) {
+            Pile less = pile(kept * on(sent), kept * back(sent));
+            vec3 back_before = sent_back_by(less, before), back_behind = sent_back_by(less, after);
+            vec3 again = (k == 0 ? 2.0 : -1.0) / (1.0 - back_before * back_behind);
+            more_behind += back_behind * again * (eyeward_half + back_before * other_half);
+            more_before += back_before * again * (other_half + back_behind * eyeward_half);
+        }
+        from_behind = max(from_behind, 0.0) + on(sent) * more_behind;
+        from_before = max(from_before, 0.0) + back(sent) * more_before;
         from_sky = from_behind + gain * from_before;
     } else {
         vec3 colour = exp(-sqrt(absorption) * colour_slope);

@@ -80,6 +80,7 @@ def test_hair_without_a_head_and_with_two(headstudio, files):
         ({"eye": [0, 0]}, "eye is three numbers"),
         ({"fov_degrees": 0}, "fov_degrees lies between"),
         ({"size": 10.5}, "size is a whole number"),
+        ({"max_bounces": 0}, "max_bounces lies between"),
         ({"ambient": "bright"}, "ambient is no number"),
         ({"hair_melanin": 1.5}, "hair_melanin lies between"),
         ({"target": VIEW["eye"]}, "the same place"),

@@ -53,6 +53,18 @@ def test_from_where_the_sun_is_nothing_seen_is_in_shadow(gl: moderngl.Context) -
     np.testing.assert_allclose(counts, [0.0, 3.0, 0.0, 3.0], atol=0.03)
 
 
+@pytest.mark.parametrize("phi", [0.3, 0.8])
+@pytest.mark.parametrize("radii", [2.0, 4.0])
+def test_a_strand_that_is_known_to_be_met_there_hides_the_place_or_not(
+    gl: moderngl.Context, phi: float, radii: float
+) -> None:
+    """Against circles so far away on the light's way, which meet it anywhere across."""
+    aside = np.linspace(-1, 1, 2001)
+    seen = np.abs(radii * np.sin(phi) - aside * np.cos(phi)) > 1.0
+    (met,) = crossed_unseen(gl, np.array([[1.0, radii, phi]]), "met_unseen(vec4(asked.x), vec4(asked.y), asked.z).x")
+    assert met == pytest.approx(seen.mean(), abs=0.05)
+
+
 @pytest.mark.parametrize("rate", [0.3, 1.0])
 def test_soft_light_from_the_eyes_side_has_met_fewer(gl: moderngl.Context, rate: float) -> None:
     """Against a fine sum over the azimuths."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from headstudio.head.mesh import Floats, TriangleMesh
-from headstudio.render.fibre import Fibre, pile
+from headstudio.render.fibre import Fibre, Sent, pile
 from headstudio.render.sky import sphere_directions
 from headstudio.render.sky_light import Sky, SkyLight, SkyPrograms
 from headstudio.render.soft_light import irradiance, terms, weights
@@ -68,11 +68,11 @@ def test_in_a_curtain_light_comes_straight_from_both_sides(gl: moderngl.Context)
     sky_light = SkyLight(gl, SkyPrograms(gl), programs.opacity, body.vertices, body.faces, FINE)
     hair.see_from_sky(sky_light)
     sky_light.see_body(np.zeros((3, 3)))
-    sent = np.full(3, 0.5), np.full(3, 0.1)
+    sent = Sent(np.full(3, 0.5), np.full(3, 0.1))
     rng = np.random.default_rng(3)
     places = rng.uniform(-1, 1, (400, 3)) * [0.03, 0.04, 0.0]
     light = sky_light.gather(places, SKY, sent).mean(axis=0)
-    (rate, _, _), _ = pile(*sent)
+    (rate, _, _), _ = pile(sent)
     directions = pairs(FINE.pairs)
     # A ray aside meets more of them; one along the strands none, but there is none such.
     met = 1.5 * np.linalg.norm(directions[:, [0, 2]], axis=1) / np.maximum(np.abs(directions[:, 2]), 1e-3)

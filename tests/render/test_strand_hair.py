@@ -12,7 +12,7 @@ from headstudio.head.frame import HeadFrame
 from headstudio.head.head import Head
 from headstudio.head.mesh import Floats
 from headstudio.render.deep_opacity import LAYER_DEPTHS, taken
-from headstudio.render.fibre import Fibre, melanin_absorption, scattering
+from headstudio.render.fibre import Fibre, Sent, followed, melanin_absorption, scattering
 from headstudio.render.light_volume import Grid, lit_from_beside
 from headstudio.render.renderer import Renderer
 from headstudio.render.scene_block import SCENE_DTYPE
@@ -33,7 +33,7 @@ from .strand_scenes import BALL_RADIUS, ball, fur, strands_crossed
 TO_LIGHT = np.array([0.36, 0.80, 0.48])
 MELANIN = 0.6
 
-BLACK = (np.zeros(3), np.zeros(3))
+BLACK = Sent(np.zeros(3), np.zeros(3))
 """What strands send forward and back that keep all light."""
 
 
@@ -167,26 +167,36 @@ def test_shader_scatters_as_the_reference_does(
     del kept
 
 
-def test_light_through_strands_is_that_of_kubelka_and_munk(gl: moderngl.Context, programs: StrandPrograms) -> None:
+def test_light_comes_through_strands_and_past_them(gl: moderngl.Context, programs: StrandPrograms) -> None:
+    """tests/render/test_pile.py has how much comes through."""
     strands = fur(3_000, points=8)
     hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
     low, high = strands.points.min(axis=0), strands.points.max(axis=0)
     places = np.random.default_rng(9).uniform(low, high, (300, 3))
     past = hair.sunlit(places, maps, BLACK)[:, 0]
-    # White hair passes on what it does not send back; coloured hair keeps some. Light that is scattered meets pi / 2 as many.
-    forward, back = np.array([0.5, 0.6, 0.2]), np.array([0.5, 0.2, 0.1])
-    through = hair.sunlit(places, maps, (forward, back))
-    assert (through[:, 0] > past - 1e-3).all()
-    sent = through[:, 0] > past + 1e-2  # else no more is known than what comes past the strands
-    through, past = through[sent], past[sent]
-    crossed = (1 / through[:, 0] - 1) / (0.5 * np.pi / 2)
-    for k in (1, 2):
-        # K and S of their paper; the layer ends at something black.
-        a, s = 1 + (1 - forward[k] - back[k]) / back[k], back[k] * np.pi / 2
-        b = np.sqrt(a * a - 1)
-        wanted = b / (a * np.sinh(b * s * crossed) + b * np.cosh(b * s * crossed))
-        np.testing.assert_allclose(through[:, k], np.maximum(wanted, past), atol=2e-3)
-    assert (crossed > 0.5).any()
+    through = hair.sunlit(places, maps, Sent(np.array([0.8, 0.5, 0.1]), np.array([0.2, 0.1, 0.05])))
+    assert (np.diff(through, axis=1) <= 1e-3).all()
+    assert (through[:, 2] > past - 1e-3).all()
+    assert (through[:, 0] < 1 + 1e-3).all()
+    shaded = past < 0.3
+    assert (through[shaded, 0] > past[shaded] + 0.1).all()
+    ended = hair.sunlit(places, maps, Sent(np.array([0.8, 0.5, 0.1]), np.array([0.2, 0.1, 0.05]), followed(2)))
+    assert (ended <= through + 1e-3).all()
+    assert ended[shaded, 0].mean() < 0.9 * through[shaded, 0].mean()
+    buffer.release()
+
+
+def test_a_place_behind_one_thick_strand_is_dark(gl: moderngl.Context, programs: StrandPrograms) -> None:
+    """Strands wider than a texel of the map hide all of what is behind them, and not exp(-1) of it."""
+    right = np.cross(TO_LIGHT, [0.0, 1.0, 0.0])
+    right /= np.linalg.norm(right)
+    ends = np.linspace(-0.15, 0.15, 7)[:, None] * right
+    strands = Strands.of_equal_count(ends[None].astype(np.float32), radius=np.full((1, 7), 0.002, np.float32))
+    hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
+    behind, beside = -0.02 * TO_LIGHT, -0.02 * TO_LIGHT + 0.01 * np.cross(right, TO_LIGHT)
+    lit = hair.sunlit(np.stack([behind, beside]), maps, BLACK)[:, 0]
+    assert lit[0] < 0.05
+    assert lit[1] == pytest.approx(1.0, abs=0.01)
     buffer.release()
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from ..head.mesh import TriangleMesh
 from ..head.read import read_mesh
 from ..params import ParameterError
 from ..render.context import headless_context
-from ..render.fibre import Fibre, melanin_absorption
+from ..render.fibre import Fibre, followed, melanin_absorption
 from ..render.strand_hair import StrandMaterial
 from ..render.strand_picture import StrandScene, shown, strand_picture
 from ..render.view import perspective_view
@@ -39,7 +39,7 @@ class StatedView:
     eye, target: of the camera [m]; +Y is up. fov_degrees: across and up. size: pixels a side. hair_melanin, hair_redness,
     hair_roughness: 0 to 1. hair_radius_root, hair_radius_tip: of a strand [m]. sun_direction: towards the sun, of any
     length. sun_strength: irradiance [W/m2]. ambient: radiance from everywhere, also the background. skin_rgb: linear
-    albedo.
+    albedo. max_bounces: light is followed over so many bounces between strands; a path tracer ends its ways somewhere.
     """
 
     eye: Triple
@@ -55,6 +55,7 @@ class StatedView:
     sun_strength: float
     ambient: float
     skin_rgb: Triple
+    max_bounces: int = 12
 
 
 _RANGES: dict[str, tuple[float, float]] = {
@@ -68,6 +69,7 @@ _RANGES: dict[str, tuple[float, float]] = {
     "sun_strength": (0.0, 1e4),
     "ambient": (0.0, 1e4),
     "skin_rgb": (0.0, 1.0),
+    "max_bounces": (1, 1e6),
 }
 
 
@@ -83,7 +85,7 @@ def read_view(path: Path) -> StatedView:
     for field in fields(StatedView):
         if field.name in stated:
             values[field.name] = _checked(path.name, field.name, stated[field.name], str(field.type))
-        else:
+        elif field.default is MISSING:
             raise ParameterError(f"{path.name} does not say {field.name}")
     view = StatedView(**values)
     if math.dist(view.eye, view.target) < _REQUIRED_DISTANCE:
@@ -124,7 +126,9 @@ def scene_of(strands: Strands, meshes: list[TriangleMesh], stated: StatedView) -
     return StrandScene(
         strands=replace(strands, radius=radius.astype(np.float32), colour=None),
         meshes=meshes,
-        material=StrandMaterial(Fibre(stated.hair_roughness), (float(red), float(green), float(blue))),
+        material=StrandMaterial(
+            Fibre(stated.hair_roughness), (float(red), float(green), float(blue)), followed=followed(stated.max_bounces)
+        ),
         diffuse=np.array(stated.skin_rgb),
         sun_direction=sun / np.linalg.norm(sun),
         sun=np.full(3, stated.sun_strength),

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..head.mesh import Floats
 from .context import load_program, set_uniforms
+from .fibre import Sent, pile
 from .strand_points import StrandTextures
 from .view import View
 
@@ -23,6 +24,8 @@ LAYER_DEPTHS = np.array([0.0015, 0.004, 0.008, 0.015, 0.027, 0.048, 0.085, 0.15]
 
 # Of the light, by one strand in the logarithm: which has no value for all.
 _MOST_TAKEN = 0.98
+# A strand that is drawn as wide as it is is met within so much [m].
+_AT_ONCE = 1e-6
 
 
 def taken(lost: Floats, cover: float) -> Floats:
@@ -108,6 +111,7 @@ class DeepOpacityMap:
         self._depths = {
             "near_depths": tuple(depths[:4]), "far_depths": tuple(depths[4:]),
             "near_rates": tuple(rates[:4]), "far_rates": tuple(rates[4:]),
+            "first_rate": box / max(strips.width * (1 - 1 / strips.widening), _AT_ONCE),
         }  # fmt: skip
         with self._context.scope(self._front_target, moderngl.DEPTH_TEST):
             self._front_target.clear(depth=1.0)
@@ -130,7 +134,15 @@ class DeepOpacityMap:
             texture.use(first_unit + k)
         return {
             "front": first_unit, "near_counts": first_unit + 1, "far_counts": first_unit + 2, **self._depths,
-            "opaque": float(taken(np.ones(1), self.cover)[0]),
+            "cover": self.cover, "opaque": float(taken(np.ones(1), self.cover)[0]),
+        }  # fmt: skip
+
+    def let_through(self, sent: Sent) -> dict[str, object]:
+        """Uniforms of common/through_hair.glsl."""
+        (rate, endless), (less_rate, less_endless) = pile(sent.less), pile(sent.less.less)
+        return {
+            "rate": tuple(taken(rate, self.cover)), "endless": tuple(endless),
+            "less_rate": tuple(taken(less_rate, self.cover)), "less_endless": tuple(less_endless),
         }  # fmt: skip
 
     def _look_at(self, target: moderngl.Framebuffer, tile: int) -> None:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import i0e
@@ -189,7 +190,22 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
     return FibreTables(around, spread, np.stack(halves, axis=-1))
 
 
-def sent_on(tables: FibreTables, absorption: Floats) -> tuple[Floats, Floats]:
+class Sent(NamedTuple):
+    """What strands of a pile do with the light they meet: the parts that they send forward and back, RGB, (3,) each, and
+    how far light is followed from strand to strand (``followed``); 1 to its end.
+    """
+
+    forward: Floats
+    back: Floats
+    followed: float = 1.0
+
+    @property
+    def less(self) -> Sent:
+        """The same, sending less by ``followed`` at every strand."""
+        return Sent(self.followed * self.forward, self.followed * self.back, self.followed)
+
+
+def sent_on(tables: FibreTables, absorption: Floats, followed: float = 1.0) -> Sent:
     """What a strand in a pile sends forward and back of the light it meets, RGB, (3,) each, at a middling inclination.
 
     In a pile light comes from everywhere above, and what comes aslant is sent back more easily. In the mean over what light
@@ -199,24 +215,34 @@ def sent_on(tables: FibreTables, absorption: Floats) -> tuple[Floats, Floats]:
     place = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)
     parts = [np.interp(coded, place, tables.albedo[:, SINES // 2, part]) for part in range(4)]
     all_, onward = parts[0] + parts[1], -(parts[2] + parts[3])
-    return 0.5 * (all_ + onward), 0.5 * (all_ - onward)
+    return Sent(0.5 * (all_ + onward), 0.5 * (all_ - onward), followed)
 
 
-def pile(forward: Floats, back: Floats) -> tuple[Floats, Floats]:
+def pile(sent: Sent) -> tuple[Floats, Floats]:
     """By what light grows less for each strand on its way, (3,), and what strands without end send back, (3,).
 
-    Kubelka, Munk 1931, for light that goes straight on; of what it meets each strand sends so much ``forward`` and ``back``.
+    Kubelka, Munk 1931, for light that goes straight on, and is followed to its end.
     """
-    kept, back = np.maximum(1 - forward - back, _LEAST_KEPT), np.maximum(back, _LEAST_KEPT)
+    kept, back = np.maximum(1 - sent.forward - sent.back, _LEAST_KEPT), np.maximum(sent.back, _LEAST_KEPT)
     rate = np.sqrt(kept * (kept + 2 * back))
     return rate, (kept + back - rate) / back
 
 
-def filling(sent: tuple[Floats, Floats]) -> float:
+def followed(bounces: int) -> float:
+    """z, where light is followed over so many bounces and no more: then of what comes after k of them is kept
+    2 z^k - z^2k = 1 - (1 - z^k)^2, which falls from 1 to 0 about there.
+
+    It takes as much from a deep white pile as if all ways ended there: what comes back from that after k bounces falls as
+    k^(-3/2), and the integrals of k^(-3/2) from there on and of (1 - z^k)^2 k^(-3/2) from 0 on are the same.
+    """
+    return float(np.exp(-1 / (np.pi * (2 - np.sqrt(2)) ** 2 * max(bounces, 1))))
+
+
+def filling(sent: Sent) -> float:
     """How fast a pile fills with the count of strands n, to x n / (1 + x n): what white hair would send back that sends as
     much of it back at each strand as this does in the mean over the colours.
     """
-    return float(max(sent[1].mean(), _LEAST_KEPT))
+    return float(max(sent.back.mean(), _LEAST_KEPT))
 
 
 def _bravais(sin_out: Floats, index: float) -> Floats:

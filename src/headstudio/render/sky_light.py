@@ -14,8 +14,8 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 from .context import load_program, set_uniforms
-from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms, taken
-from .fibre import filling, pile
+from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
+from .fibre import Sent, filling
 from .receivers import receive
 from .screen import ScreenPasses
 from .sky import sphere_directions
@@ -127,19 +127,17 @@ class SkyLight:
             target.viewport = (0, 0, *target.size)
             self._context.depth_func = "<"
 
-    def gather(self, places: Floats, sky: Sky, sent: tuple[Floats, Floats], clear: float = 0.0) -> Floats:
+    def gather(self, places: Floats, sky: Sky, sent: Sent, clear: float = 0.0) -> Floats:
         """The light that arrives at ``places`` [m], (n, 3): (n, 8, 4), as render/soft_light.py says; none inside the body.
 
-        sent: of light that meets a strand, what goes on and what comes back, RGB. clear: no strand is so near to a place [m].
+        sent: what strands do with it. clear: no strand is so near to a place [m].
         """
-        rate, endless = pile(*sent)
         self._frames.use(1)
         self._body.use(2)
         self._far_body.use(3)
         return receive(
             self._context, self._programs.gather, "gather", places, NUMBERS, directions=1, body=2, far_body=3,
             tiles=self._tiles, body_sphere=self._body_sphere.uniform, hair_sphere=self._hair_sphere.uniform,
-            rate=tuple(taken(rate, self._hair.cover)), endless=tuple(endless), filling=filling(sent),
-            sky_above=tuple(sky.above),
-            sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS, clear=clear, **self._hair.bind(4),
+            filling=filling(sent), sky_above=tuple(sky.above), sky_below=tuple(sky.below), upward=tuple(sky.upward), bias=_BIAS,
+            clear=clear, **self._hair.bind(4), **self._hair.let_through(sent),
         )  # fmt: skip

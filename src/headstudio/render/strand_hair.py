@@ -14,7 +14,7 @@ from ..head.mesh import Floats
 from ..wisp.strands import Singles
 from .context import load_program, set_uniforms
 from .deep_opacity import DeepOpacityMap, LightStrips, OpacityPrograms
-from .fibre import Fibre, colour_absorption, colour_slope, fibre_tables, filling, sent_on
+from .fibre import Fibre, Sent, colour_absorption, colour_slope, fibre_tables, filling, sent_on
 from .fibre_textures import FibreTextures
 from .light_volume import LightVolume, grid_around, lit_from_beside
 from .occlusion import Occluder
@@ -48,12 +48,13 @@ class StrandMaterial:
     """What the strands are made of.
 
     absorption: per radius, RGB, of strands that have no colour of their own. fibre_model: Marschner's lobes; else those of
-    Kajiya and Kay.
+    Kajiya and Kay. followed: how far light is followed from strand to strand (fibre.followed); 1 to its end.
     """
 
     fibre: Fibre
     absorption: tuple[float, float, float]
     fibre_model: bool = True
+    followed: float = 1.0
 
 
 class StrandPrograms:
@@ -186,11 +187,16 @@ class StrandHair:
         box = tuple(self._hair_view.clip_from_world.T.ravel())
         return {"hair_box": box, "box_size": self._hair_view.far, **self.opacity.bind(first_unit)}
 
+    def let_through(self, sent: Sent) -> dict[str, object]:
+        """Uniforms of common/through_hair.glsl for the light's map; ``sent`` as ``sent_on`` says."""
+        assert self.opacity is not None
+        return self.opacity.let_through(sent)
+
     def see_from_sky(self, sky_light: SkyLight) -> None:
         """Show the hair to the sky: as many of the strands, spread evenly over all, as it can look through."""
         sky_light.see_hair(self._for_sky, self._sphere)
 
-    def take_soft_light(self, sky_light: SkyLight, sky: Sky, sent: tuple[Floats, Floats]) -> None:
+    def take_soft_light(self, sky_light: SkyLight, sky: Sky, sent: Sent) -> None:
         """Work out the soft light all through the hair; ``sent`` as in SkyLight.gather."""
         if self._soft is not None:
             self._soft.release()
@@ -198,14 +204,14 @@ class StrandHair:
         self._soft = LightVolume(self._context, self._grid, light)
         self._filling = filling(sent)
 
-    def sent_on(self, material: StrandMaterial) -> tuple[Floats, Floats]:
-        """Of light that meets a strand, what goes on and what comes back, RGB, (3,) each, in the mean over the hair."""
+    def sent_on(self, material: StrandMaterial) -> Sent:
+        """What strands do with the light they meet, in the mean over the hair."""
         absorption = np.array(material.absorption)
         if self._mean_colour is not None:
             absorption = colour_absorption(self._mean_colour, material.fibre.radial_roughness)
-        return sent_on(fibre_tables(material.fibre), absorption)
+        return sent_on(fibre_tables(material.fibre), absorption, material.followed)
 
-    def sunlit(self, places: Floats, maps: LightTargets, sent: tuple[Floats, Floats]) -> Floats:
+    def sunlit(self, places: Floats, maps: LightTargets, sent: Sent) -> Floats:
         """The part of the parallel light that reaches ``places`` [m] in the head frame, (n, 3), between the strands and by
         way of them: RGB, (n, 3). sent: as ``sent_on`` says.
         """
@@ -213,8 +219,7 @@ class StrandHair:
         maps.depth.use(1)
         maps.map.use(2)
         uniforms = {
-            "shadow_map": 1, "light_map": 2, "sent_forward": tuple(sent[0]), "sent_back": tuple(sent[1]),
-            **self.light_uniforms(3),
+            "shadow_map": 1, "light_map": 2, **self.opacity.let_through(sent), **self.light_uniforms(3),
         }  # fmt: skip
         return receive(self._context, self._programs.screens, "sunlit", places, 1, **uniforms)[:, 0, :3]
 
@@ -236,6 +241,7 @@ class StrandHair:
             "hair_absorption": material.absorption,
             "colour_slope": colour_slope(fibre.radial_roughness),
             "fibre_model": material.fibre_model,
+            "followed": material.followed,
             "filling": self._filling,
             **self._programs.fibre.bind(fibre, 5),
         }  # fmt: skip

@@ -91,7 +91,7 @@ def strand_picture(
     soft = np.pi * np.broadcast_to(scene.sky, body.vertices.shape) * 0.5
     above = body.vertices + 0.002 * body.normals
     facing = np.maximum(body.normals @ scene.sun_direction, 0.0)[:, None]
-    forward, back = sent = hair.sent_on(scene.material)
+    sent = hair.sent_on(scene.material)
     sunlit = facing * hair.sunlit(above, maps, sent) * scene.sun
     for _ in range(BOUNCES):
         sky_light.see_body(scene.diffuse / np.pi * (soft + sunlit))
@@ -111,8 +111,7 @@ def strand_picture(
         maps.depth.use(0)
         maps.map.use(1)
         body.draw(
-            scene.diffuse, sent_forward=tuple(forward), sent_back=tuple(back), shadow_map=0, light_map=1,
-            **hair.light_uniforms(8),
+            scene.diffuse, shadow_map=0, light_map=1, **hair.light_uniforms(8), **hair.let_through(sent),
         )  # fmt: skip
     with context.scope(targets.scene, moderngl.BLEND | moderngl.DEPTH_TEST):
         targets.scene.depth_mask = False
