@@ -10,7 +10,7 @@ import pytest
 
 from headstudio.head.frame import HeadFrame
 from headstudio.head.head import Head
-from headstudio.head.mesh import Floats
+from headstudio.head.mesh import Floats, TriangleMesh
 from headstudio.render.deep_opacity import LAYER_DEPTHS, taken
 from headstudio.render.fibre import Fibre, Sent, followed, melanin_absorption, scattering
 from headstudio.render.light_volume import Grid, lit_from_beside
@@ -21,7 +21,7 @@ from headstudio.render.soft_light import irradiance
 from headstudio.render.strand_detail import FINE, StrandSurvey, thinned
 from headstudio.render.strand_hair import StrandHair, StrandMaterial, StrandPrograms
 from headstudio.render.strand_picture import StrandScene, shown, strand_picture
-from headstudio.render.strand_points import PIECE, pack, piece_indices, strip_indices
+from headstudio.render.strand_points import pack, piece_indices, piece_spheres, strip_indices
 from headstudio.render.targets import light_targets
 from headstudio.render.view import View, bounding_sphere, parallel_view, perspective_view
 from headstudio.scene.settings import Camera, Look
@@ -73,17 +73,26 @@ class TestStrips:
         whole = strip_indices(first, 3)
         assert (np.flatnonzero(whole == 0xFFFFFFFF) + 1 == 2 * first[1:4] + [1, 2, 3]).all()
         assert (whole[whole != 0xFFFFFFFF] == np.arange(24)).all()
-        pieces, amid, of_strands = piece_indices(first, 3)
+
+    @pytest.mark.parametrize("piece", [1, 2, 4])
+    def test_every_segment_is_in_one_piece(self, piece: int) -> None:
+        first = pack(self.strands).first
+        pieces, of_strands = piece_indices(first, 3, piece)
         drawn = {
             (int(a) // 2, int(b) // 2) for row in pieces for a, b in zip(row[:-3:2], row[2:-1:2]) if a // 2 != b // 2
         }
-        wanted = {(k, k + 1) for start, end in pairwise(first) for k in range(start, end - 1)}
-        assert drawn == wanted
-        wanted_pieces = sum(-(-segments // PIECE) for segments in (1, 6, 2))
-        assert pieces.shape == (wanted_pieces, 2 * PIECE + 3)
-        assert all(row[0] // 2 <= point <= row[-2] // 2 for row, point in zip(pieces, amid, strict=True))
+        assert drawn == {(k, k + 1) for start, end in pairwise(first) for k in range(start, end - 1)}
+        assert pieces.shape == (sum(-(-segments // piece) for segments in (1, 6, 2)), 2 * piece + 3)
         assert (pieces[:, -1] == 0xFFFFFFFF).all()
-        assert of_strands[-1] == wanted_pieces
+        assert of_strands[-1] == len(pieces)
+
+    @pytest.mark.parametrize("piece", [1, 2])
+    def test_a_piece_is_known_by_its_middle(self, piece: int) -> None:
+        points = np.float32([[0, 0, 0], [2, 0, 0], [4, 0, 0], [6, 0, 0], [7, 0, 0]])
+        packed = pack(Strands(points, np.array([0, 5])))
+        middles, reaches = piece_spheres(packed, piece_indices(packed.first, 1, piece)[0])
+        np.testing.assert_allclose(middles[:, 0], [1, 3, 5, 6.5] if piece == 1 else [2, 6])
+        np.testing.assert_allclose(reaches, [1, 1, 1, 0.5] if piece == 1 else [2, 2])
 
     def test_coarser_strips_keep_roots_and_tips(self) -> None:
         strands = Strands(np.zeros((12, 3), np.float32), np.array([0, 2, 9, 12]))
@@ -100,6 +109,23 @@ class TestStrips:
         every = strands.points.reshape(500, -1, 3)[:, 0]
         assert np.linalg.norm(chosen.mean(axis=0) - every.mean(axis=0)) < 0.2 * every.std()
         assert {tuple(point) for point in chosen.tolist()} <= {tuple(point) for point in every.tolist()}
+
+
+def test_a_strand_that_runs_away_from_the_eye_is_before_another_and_then_behind_it(gl: moderngl.Context) -> None:
+    """Red comes from before blue, and crosses behind it: in order of middles of both its segments blue would be behind."""
+    crossing, before = np.array([0.05, 0.0, 0.02]), np.array([0.0, 0.0, 0.06])
+    behind = crossing + 0.05 * (crossing - eye_view().eye)
+    red = [2 * before - behind, before, 2 * behind - before]
+    blue = crossing + np.array([[0.0, -0.05, 0.0], [0.0, 0.0, 0.0], [0.0, 0.05, 0.0]])
+    colours = np.repeat(np.float32([[0.9, 0.02, 0.02], [0.02, 0.02, 0.9]]), 3, axis=0)
+    strands = Strands.of_equal_count(
+        np.float32([red, blue]), radius=np.full((2, 3), 0.004, np.float32), colour=colours.reshape(2, 3, 3)
+    )
+    far_off = TriangleMesh(0.1 * ball().vertices - [0.0, 0.0, 0.3], ball().faces)
+    light = picture(gl, fur_scene(strands=strands, meshes=[far_off], sun=np.zeros(3), sky=np.ones(3)))
+    x, y, _, w = eye_view().clip_from_world @ [*crossing, 1.0]
+    at = light[int(64 - 64 * y / w), int(64 + 64 * x / w)]
+    assert at[2] > 2 * at[0]
 
 
 @pytest.fixture

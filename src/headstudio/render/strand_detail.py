@@ -26,7 +26,8 @@ class StrandDetail:
     of the light and into those of the sky. stride: of their points only every so many, and for the sky as few as they are
     straight. coarseness: texels of the map of the light are so many times as large as those of other shadows. pairs: of
     opposite directions that stand for the sky. spacing: of the nodes where soft light is worked out [m], where the hair is
-    not too large for it.
+    not too large for it. piece: segments that are sorted as one when strands are blended. Where hair turns toward the eye long
+    pieces stand in a wrong order, and what lies deeper, in the shadow, is drawn over what is lit.
     """
 
     strand_pixels: float
@@ -37,6 +38,7 @@ class StrandDetail:
     coarseness: int
     pairs: int
     spacing: float
+    piece: int
 
 
 FINE = StrandDetail(
@@ -48,6 +50,7 @@ FINE = StrandDetail(
     coarseness=1,
     pairs=16,
     spacing=0.004,
+    piece=1,
 )
 QUICK = StrandDetail(
     strand_pixels=0.6,
@@ -58,6 +61,7 @@ QUICK = StrandDetail(
     coarseness=1,
     pairs=5,
     spacing=0.006,
+    piece=2,
 )
 ROUGH = StrandDetail(
     strand_pixels=1.5,
@@ -68,6 +72,7 @@ ROUGH = StrandDetail(
     coarseness=2,
     pairs=3,
     spacing=0.01,
+    piece=2,
 )
 """For a draft, which is looked at for the blink of an eye until there are more strands."""
 

@@ -22,7 +22,7 @@ from .receivers import receive
 from .screen import ScreenPasses
 from .sky_light import Sky, SkyLight
 from .strand_detail import StrandDetail, StrandSurvey, thinned
-from .strand_points import POINT_ROW, PackedStrands, StrandTextures, pack, piece_indices, piece_reaches, strip_indices
+from .strand_points import POINT_ROW, PackedStrands, StrandTextures, pack, piece_indices, piece_spheres, strip_indices
 from .targets import LightTargets
 from .view import View, parallel_view
 
@@ -100,10 +100,9 @@ class StrandHair:
         # The sky sees hair from afar: what is straight needs few points.
         stride = max(detail.stride, survey.straight_for // step)
         self._for_sky = self._light_strips(packed, min(detail.sky_strands, self._lit_by), step, stride)
-        self._pieces, amid, self._piece_ends = piece_indices(packed.first, self.shown)
-        self._amid = packed.points[amid, :3]
-        self._reaches = piece_reaches(packed, amid)
-        self._reach = float(np.quantile(self._reaches, _MOST_PIECES)) if len(amid) else 0.0
+        self._pieces, self._piece_ends = piece_indices(packed.first, self.shown, detail.piece)
+        self._amid, self._reaches = piece_spheres(packed, self._pieces)
+        self._reach = float(np.quantile(self._reaches, _MOST_PIECES)) if len(self._reaches) else 0.0
         self._thickest = float(packed.points[:, 3].max(initial=0.0))
         self._sorted = context.buffer(reserve=max(self._pieces.nbytes, 4))
         self._sorted_array = context.vertex_array(programs.ribbon, [], self._sorted)

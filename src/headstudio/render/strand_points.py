@@ -19,10 +19,6 @@ from .context import release
 POINT_ROW = 2048
 """Points in a row of the textures; ``point_row`` in common/strand_points.glsl."""
 
-PIECE = 2
-"""Segments that are sorted as one when strands are blended: where hair turns toward the eye long pieces stand in a wrong order,
-and begin one beside the other as a dark comb."""
-
 DEFAULT_RADIUS = 4e-5
 """Half the thickness of a shaft [m] where the strands do not say it; the last fifth of a strand tapers to half of it."""
 
@@ -85,34 +81,35 @@ def strip_indices(first: NDArray[np.int64], shown: int, stride: int = 1) -> NDAr
     return strips
 
 
-def piece_indices(first: NDArray[np.int64], shown: int) -> tuple[NDArray[np.uint32], Ints, Ints]:
-    """The first ``shown`` strands in pieces of PIECE segments: strips (k, 2 PIECE + 3), a point amid each, (k,), and how
-    many pieces the first 0, 1, 2 ... strands have, (shown + 1,).
+def piece_indices(first: NDArray[np.int64], shown: int, piece: int) -> tuple[NDArray[np.uint32], Ints]:
+    """The first ``shown`` strands in pieces of ``piece`` segments: strips (k, 2 piece + 3), and how many pieces the first 0, 1,
+    2 ... strands have, (shown + 1,).
 
     A shorter piece repeats its last vertices: triangles without area.
     """
     segments = np.diff(first[: shown + 1]) - 1
-    pieces = -(-segments // PIECE)
+    pieces = -(-segments // piece)
     which = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    start = np.repeat(first[:shown], pieces) + PIECE * which
+    start = np.repeat(first[:shown], pieces) + piece * which
     last = np.repeat(first[1 : shown + 1] - 1, pieces)
-    strips = np.full((len(start), 2 * PIECE + 3), _RESTART, np.uint32)
+    strips = np.full((len(start), 2 * piece + 3), _RESTART, np.uint32)
     vertex, end = (2 * start).astype(np.uint32), (2 * last + 1).astype(np.uint32)
-    for k in range(2 * PIECE + 2):
+    for k in range(2 * piece + 2):
         np.minimum(vertex + np.uint32(k), end, out=strips[:, k])
-    return strips, np.minimum(start + PIECE // 2, last), np.concatenate([[0], np.cumsum(pieces)])
+    return strips, np.concatenate([[0], np.cumsum(pieces)])
 
 
-def piece_reaches(packed: PackedStrands, amid: Ints) -> Singles:
-    """How far from the points ``amid``, (k,), the pieces around them reach [m], (k,)."""
-    strand = np.searchsorted(packed.first, amid, side="right") - 1
-    low, high = packed.first[strand], packed.first[strand + 1] - 1
-    middle = packed.points[amid, :3]
-    farthest = np.zeros(len(amid), np.float32)
-    for step in (*range(-PIECE // 2, 0), *range(1, PIECE // 2 + 1)):
-        away = packed.points[np.clip(amid + step, low, high), :3] - middle
+def piece_spheres(packed: PackedStrands, strips: NDArray[np.uint32]) -> tuple[Singles, Singles]:
+    """The middle of every piece [m], (k, 3), halfway along it, and how far it reaches from there [m], (k,)."""
+    points = strips[:, :-1:2] // 2
+    piece = points.shape[1] - 1
+    place = packed.points[:, :3]
+    middle = 0.5 * (place[points[:, piece // 2]] + place[points[:, (piece + 1) // 2]])
+    farthest = np.zeros(len(points), np.float32)
+    for point in points.T:
+        away = place[point] - middle
         np.maximum(farthest, np.einsum("ij,ij->i", away, away), out=farthest)
-    return np.sqrt(farthest)
+    return middle, np.sqrt(farthest)
 
 
 class StrandTextures:
