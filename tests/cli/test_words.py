@@ -148,15 +148,25 @@ def test_inspect_tells_what_a_head_holds(headstudio):
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_ctrl_c_says_cancelled_with_status_130(tmp_path):
     words = [sys.executable, "-c", "from headstudio.cli import main; main()", "simulate", "--seconds", "600", "--head"]
-    running = subprocess.Popen([*words, "mannequin"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
-    time.sleep(1.5)
-    running.send_signal(signal.SIGINT)
+    running = subprocess.Popen(
+        [*words, "mannequin"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        # Tests that run in the background of a shell are deaf to Ctrl-C, and so would be what they start.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     try:
-        _, complaint = running.communicate(timeout=30)
-    except subprocess.TimeoutExpired:
-        # On a busy machine the first came so early that Python was still loading: a person would press again.
+        time.sleep(1.5)
         running.send_signal(signal.SIGINT)
-        _, complaint = running.communicate(timeout=60)
+        try:
+            _, complaint = running.communicate(timeout=30)
+        except subprocess.TimeoutExpired:
+            # On a busy machine the first came so early that Python was still loading: a person would press again.
+            running.send_signal(signal.SIGINT)
+            _, complaint = running.communicate(timeout=60)
+    finally:
+        running.kill()
     assert running.returncode == 130
     assert complaint.strip().splitlines()[-1:] in ([], ["headstudio: cancelled"])
 
