@@ -84,9 +84,11 @@ def turned(between: Floats, cosine: Floats, sine: Floats) -> tuple[Floats, Float
     to both; where they are parallel there is no such axis, and the answer is +-u, on the hair's side.
     """
     square = np.maximum(1.0 - between * between, _PARALLEL**2)
-    parallel = square == _PARALLEL**2
-    sideways = np.where(parallel, 0.0, sine / np.sqrt(square))
-    return np.where(parallel, np.sign(between), cosine - sideways * between), sideways, square
+    sideways = sine / np.sqrt(square)
+    lengthwise = cosine - sideways * between
+    parallel = np.flatnonzero(square == _PARALLEL**2)
+    lengthwise[parallel], sideways[parallel] = np.sign(between[parallel]), 0.0
+    return lengthwise, sideways, square
 
 
 def _led_on(total: Floats, along: Floats, directions: Floats, held: Floats) -> Floats:

@@ -34,13 +34,13 @@ from .spring_matrix import SpringMatrix
 # turns far. And more, for accuracy, as long as few particles leave the time for it.
 _FEWEST_PARTS, _MOST_PARTS = 2, 4
 _PART_LENGTH = 0.06  # [m]
-_PARTICLES_IN_TIME = 8000  # particles times parts that keep up with real time
+_PARTICLES_IN_TIME = 6000  # particles times parts that keep up with real time
 # How often a step looks for the planes of the body: they are tangents, and good for some way.
 _LOOKS = 2
 # Stiffer hair is turned too far by a part of half a step, and breaks [Pa].
 _MODULUS_CARRIED = 1e6
 # Of what a solution leaves. More parts in a step bring more than solutions that are twice as good, and cost the same.
-_TOLERANCE = 5e-3
+_TOLERANCE = 4e-3
 
 
 class ImplicitSolver:
