@@ -34,8 +34,9 @@ class AnimationCost:
     """One head of hair while the head shakes. Milliseconds are medians over the frames.
 
     particles, links: how many. frames: how many were measured. simulation_ms, picture_ms: of a frame of 1/30 s, each for
-    itself. frame_ms: of both as the window does them, the simulation in a process of its own. stages: by name, as the
-    simulation and the renderer time themselves; the renderer's in frames of their own, since timing them holds it up.
+    itself; between two of its frames the simulation sees no picture, as in the window, where it has a process of its own.
+    frame_ms: of both as the window does them. stages: by name, as the simulation and the renderer time themselves; the
+    renderer's in frames of their own, since timing them holds it up.
     """
 
     particles: int
@@ -83,37 +84,41 @@ def animation_cost(
         renderer.context.finish()
         tick()
 
-    def animate() -> tuple[float, float, Search]:
+    def simulate() -> tuple[float, Search]:
         start = time.perf_counter()
         simulation.advance(motion, 1 / DISPLAY_RATE)
         simulated = time.perf_counter()
-        search = search_both(simulation.state.positions, simulation.dynamics.neighbours.radius)
-        searched = time.perf_counter()
+        return 1e3 * (simulated - start), search_both(simulation.state.positions, simulation.dynamics.neighbours.radius)
+
+    def picture() -> float:
+        simulation.advance(motion, 1 / DISPLAY_RATE)
+        start = time.perf_counter()
         draw(simulation)
-        return 1e3 * (simulated - start), 1e3 * (time.perf_counter() - searched), search
+        return 1e3 * (time.perf_counter() - start)
 
     for _ in range(WARM_UP):
-        animate()
+        simulate()
     neighbours = simulation.dynamics.neighbours
     searches, questions = neighbours.searches, neighbours.questions
     costs, stages = [], []
     for _ in range(frames):
-        costs.append(animate())
+        costs.append(simulate())
         stages.append(dict(simulation.timings))
     # The paper searches once for every integration; here an internal step is integrated in parts.
     integrations = (neighbours.questions - questions) * simulation.parts
     searches = neighbours.searches - searches
     listed = sum(stage.get("neighbours", 0.0) for stage in stages)
+    pictures = [picture() for _ in range(WARM_UP + frames)][WARM_UP:]
     return AnimationCost(
         particles=simulation.built.hair.count,
         links=len(simulation.built.hair.links),
         frames=frames,
-        simulation_ms=median(simulated for simulated, _, _ in costs),
-        picture_ms=median(drawn for _, drawn, _ in costs),
+        simulation_ms=median(simulated for simulated, _ in costs),
+        picture_ms=median(pictures),
         frame_ms=_frame_ms(SimulationAhead(built, document), motion, draw, frames),
-        stages=_medians(stages) | _picture_stages(animate, renderer),
+        stages=_medians(stages) | _picture_stages(picture, renderer),
         neighbours=neighbour_cost(
-            [search for _, _, search in costs], listed / max(integrations, 1), searches, integrations
+            [search for _, search in costs], listed / max(integrations, 1), searches, integrations
         ),
     )
 
@@ -136,11 +141,11 @@ def _frame_ms(simulation: SimulationAhead, motion: Motion, draw: Callable[[Simul
     return median(taken[WARM_UP:])
 
 
-def _picture_stages(animate: Callable[[], object], renderer: Renderer) -> dict[str, float]:
+def _picture_stages(picture: Callable[[], object], renderer: Renderer) -> dict[str, float]:
     renderer.timer.on = True
     stages = []
     for _ in range(TIMED_PICTURES):
-        animate()
+        picture()
         stages.append({name.removeprefix("ms_"): spent for name, spent in renderer.timer.stages.items()})
     renderer.timer.on = False
     return {f"picture: {name}": spent for name, spent in _medians(stages).items()}
