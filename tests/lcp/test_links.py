@@ -82,6 +82,15 @@ def test_every_particle_hangs_on_the_scalp(grown):
     assert len(here) == 0
 
 
+def test_a_tip_that_fell_to_the_other_side_hangs_on_the_hair_that_is_there():
+    """Its nearest hair by root and arc length lies far away; what lies beside it is of its strands, too."""
+    positions = np.array([[0, -0.002, 0], [0.012, -0.002, 0], [0.2, 0.1, 0], [0, 0.1, 0], [0.011, 0.1, 0]])
+    roots = np.array([[0, 0, 0], [0.012, 0, 0], [0, 0, 0], [0.012, 0, 0], [0.001, 0, 0]])
+    arc_length = np.array([-0.002, -0.002, 0.1, 0.1, 0.11])
+    links = connect(positions, np.tile(UP, (5, 1)), roots, arc_length, 0.012, 0.012)
+    assert links.pairs[links.pairs[:, 1] == 4].tolist() == [[3, 4]]
+
+
 def test_the_lifeline_is_the_strongest_rootward_link(grown):
     weight = grown.strength * kernel(grown.rest_length, grown.smoothing_length_links)
     best = np.zeros(grown.count)

@@ -114,11 +114,16 @@ def _measure(positions: Floats, directions: Floats, pairs: Ints) -> Links:
 
 
 def _anchor(loose: Ints, positions: Floats, directions: Floats, roots: Floats, arc_length: Floats) -> Links:
-    """Links from particles that hang on nothing to the one next to them on their hair (eq. 3) that is nearer to the root."""
+    """Links from particles that hang on nothing to one that is nearer to the root.
+
+    Of those next to them on their hair (eq. 3) it is the one that lies nearest: of hair from roots side by side some may
+    have fallen to the other side of a shoulder.
+    """
     place = np.column_stack([roots, arc_length])
     nearby = cKDTree(place).query(place[loose], k=min(_CANDIDATES, len(place)))[1]
     rootward = arc_length[nearby] < arc_length[loose][:, None]
-    chosen = nearby[np.arange(len(loose)), np.argmax(rootward, axis=1)]
+    away = np.linalg.norm(positions[nearby] - positions[loose][:, None], axis=2)
+    chosen = nearby[np.arange(len(loose)), np.argmin(np.where(rootward, away, np.inf), axis=1)]
     # Where all of those lie tipward, the root particle closest by is left.
     fixed = np.flatnonzero(arc_length < 0)
     last_resort = fixed[cKDTree(place[fixed]).query(place[loose])[1]]
