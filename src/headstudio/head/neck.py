@@ -12,7 +12,6 @@ from .rows import cross_matrix, mapped, row_dot
 from .smooth import smoothstep
 
 _NEWTON_STEPS = 3
-_NEWTON_DONE = 1e-4  # of the turn: where the neck twists and does not bend, the first step is exact
 # Where the inner side of a bend folds up, one place at rest comes to many: there Newton's way is kept this steep.
 _FLATTEST = 0.3
 
@@ -60,12 +59,8 @@ class Neck:
             c, s = np.cos(angle * w), np.sin(angle * w)
             below = self._below(still + c * cosine - s * sine)
             steepness = 1.0 + angle * (s * cosine + c * sine) * self._slope(below)
-            better = w - (w - self._share(below)) / np.maximum(steepness, _FLATTEST)
-            np.minimum(np.maximum(better, 0.0, out=better), 1.0, out=better)
-            done = np.abs(better - w).max(initial=0.0) < _NEWTON_DONE
-            w = better
-            if done:
-                break
+            w -= (w - self._share(below)) / np.maximum(steepness, _FLATTEST)
+            w = np.minimum(np.maximum(w, 0.0), 1.0)
         return w
 
     def bent_normals(self, points: Floats, normals: Floats, turn: Floats) -> Floats:
