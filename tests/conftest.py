@@ -39,6 +39,7 @@ def gl(_gl: moderngl.Context) -> Iterator[moderngl.Context]:
         _gl.clear_errors()
         yield _gl
         assert _gl.error == "GL_NO_ERROR"
+        _gl.gc()
 
 
 @pytest.fixture

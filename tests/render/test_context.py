@@ -1,8 +1,10 @@
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import moderngl
+import numpy as np
 import pytest
 
 from headstudio.render import context as context_module
@@ -39,3 +41,23 @@ def test_uniforms_that_are_not_used_are_passed_over(gl: moderngl.Context) -> Non
     )
     set_uniforms(program, size=2.0, colour=(1.0, 0.0, 0.0))
     assert program["size"].value == 2.0  # type: ignore[union-attr]
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="only Linux says how much memory is taken")
+def test_contexts_that_nobody_holds_give_their_memory_back() -> None:
+    """Each command that draws makes one, and all that it drew with would stay: a test run would take 16 GB."""
+
+    def draw() -> None:
+        with headless_context() as context:
+            sheet = context.framebuffer([context.texture((2048, 1024), 4, dtype="f4")])
+            sheet.clear(0.5, 0.5, 0.5, 0.5)
+            assert sheet.read(viewport=(0, 0, 1, 1), components=1, dtype="f4") == np.float32(0.5).tobytes()
+
+    def taken() -> float:
+        return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+    draw()
+    before = taken()
+    for _ in range(8):
+        draw()
+    assert taken() - before < 2 * 32  # megabytes: one sheet has 32

@@ -196,7 +196,7 @@ def test_shader_scatters_as_the_reference_does(
 def test_light_comes_through_strands_and_past_them(gl: moderngl.Context, programs: StrandPrograms) -> None:
     """tests/render/test_pile.py has how much comes through."""
     strands = fur(3_000, points=8)
-    hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
+    hair, (maps, _) = lit_hair(gl, programs, strands, shadows=True)
     low, high = strands.points.min(axis=0), strands.points.max(axis=0)
     places = np.random.default_rng(9).uniform(low, high, (300, 3))
     past = hair.sunlit(places, maps, BLACK)[:, 0]
@@ -209,7 +209,6 @@ def test_light_comes_through_strands_and_past_them(gl: moderngl.Context, program
     ended = hair.sunlit(places, maps, Sent(np.array([0.8, 0.5, 0.1]), np.array([0.2, 0.1, 0.05]), followed(2)))
     assert (ended <= through + 1e-3).all()
     assert ended[shaded, 0].mean() < 0.9 * through[shaded, 0].mean()
-    buffer.release()
 
 
 def test_a_place_behind_one_thick_strand_is_dark(gl: moderngl.Context, programs: StrandPrograms) -> None:
@@ -218,17 +217,16 @@ def test_a_place_behind_one_thick_strand_is_dark(gl: moderngl.Context, programs:
     right /= np.linalg.norm(right)
     ends = np.linspace(-0.15, 0.15, 7)[:, None] * right
     strands = Strands.of_equal_count(ends[None].astype(np.float32), radius=np.full((1, 7), 0.002, np.float32))
-    hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
+    hair, (maps, _) = lit_hair(gl, programs, strands, shadows=True)
     behind, beside = -0.02 * TO_LIGHT, -0.02 * TO_LIGHT + 0.01 * np.cross(right, TO_LIGHT)
     lit = hair.sunlit(np.stack([behind, beside]), maps, BLACK)[:, 0]
     assert lit[0] < 0.05
     assert lit[1] == pytest.approx(1.0, abs=0.01)
-    buffer.release()
 
 
 def test_deep_opacity_is_what_rays_meet(gl: moderngl.Context, programs: StrandPrograms) -> None:
     strands = fur(3_000, points=8)
-    hair, (maps, buffer) = lit_hair(gl, programs, strands, shadows=True)
+    hair, (maps, _) = lit_hair(gl, programs, strands, shadows=True)
     rng = np.random.default_rng(8)
     low, high = strands.points.min(axis=0), strands.points.max(axis=0)
     places = rng.uniform(low, high, (900, 3))
@@ -242,7 +240,6 @@ def test_deep_opacity_is_what_rays_meet(gl: moderngl.Context, programs: StrandPr
         inside = (through >= low_) & (through < high_)
         assert abs(through[inside].mean() - seen[inside].mean()) < 0.1
     assert (np.diff(LAYER_DEPTHS) > 0).all()
-    del buffer
 
 
 def test_a_ball_hides_its_part_of_the_sky(gl: moderngl.Context, programs: StrandPrograms) -> None:

@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 # isort: split
 import glfw  # after imgui_bundle, which says which libglfw is loaded: both must drive the same one
 
+from ..render.context import collecting
+
 SMALLEST = (960, 600)
 
 
@@ -45,11 +47,10 @@ class Window:
         try:
             # Of the window's context, whatever made it and whatever other contexts this process has.
             moderngl.init_context()
-            self.gl = moderngl.get_context()
+            self.gl = collecting(moderngl.get_context())
         except Exception as error:  # moderngl raises plain Exceptions, with the reason in the text
             self._destroy()
             raise WindowError(f"this machine gives no OpenGL 3.3 ({error}); run headstudio demo instead") from None
-        self.gl.gc_mode = "context_gc"
         self._imgui = imgui.create_context()
         self._implot = implot.create_context()
         # The layout is the studio's own, so there is nothing for ImGui to keep between two runs.

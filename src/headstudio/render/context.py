@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Mapping
 
 import moderngl
@@ -19,15 +20,28 @@ class RenderError(RuntimeError):
 def headless_context() -> moderngl.Context:
     """An OpenGL 3.3 context without a window, through EGL (Mesa's llvmpipe where there is no graphics card).
 
-    Raises RenderError, in one line, if there is none.
+    It is given back, with all that was made in it, when nothing refers to it any more. Raises RenderError, in one line,
+    if there is none.
     """
     try:
-        return moderngl.create_context(standalone=True, require=GL_VERSION, backend="egl")  # type: ignore[arg-type]
+        context = moderngl.create_context(standalone=True, require=GL_VERSION, backend="egl")  # type: ignore[arg-type]
     except Exception as error:  # glcontext raises bare Exception, moderngl its own and ValueError
         reason = " ".join(str(error).split()) or type(error).__name__
         raise RenderError(
             f"no OpenGL 3.3 without a window ({reason}); on Debian: apt install libegl1 libgl1 libgl1-mesa-dri"
         ) from None
+    # moderngl keeps a context of its own making for as long as the program runs.
+    weakref.finalize(context, context.mglo.release).atexit = False
+    return collecting(context)
+
+
+def collecting(context: moderngl.Context) -> moderngl.Context:
+    """The context, which from now on gathers what nobody refers to any more; its ``gc()`` frees it.
+
+    Python drops an object wherever it happens to be, and OpenGL may only free it while the context is current.
+    """
+    context.gc_mode = "context_gc"
+    return context
 
 
 def is_software(context: moderngl.Context) -> bool:
@@ -61,17 +75,6 @@ def load_program(
 def _with_choices(source: str, choices: Mapping[str, int]) -> str:
     version, _, rest = source.partition("\n")
     return "\n".join([version, *(f"#define {name} {value}" for name, value in choices.items()), rest])
-
-
-def release(context: moderngl.Context, *objects: moderngl.Framebuffer | moderngl.Texture | moderngl.Texture3D) -> None:
-    """Free what is needed no more.
-
-    Not in a context that frees by itself what nobody refers to, as that of a window does at the end of a picture: it
-    fails on something that was freed before.
-    """
-    if context.gc_mode != "context_gc":
-        for each in objects:
-            each.release()
 
 
 def set_uniforms(program: moderngl.Program, **values: object) -> None:

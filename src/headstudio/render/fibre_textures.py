@@ -6,7 +6,6 @@ import moderngl
 import numpy as np
 
 from ..head.mesh import Floats
-from .context import release
 from .fibre import Fibre, fibre_tables
 
 
@@ -33,7 +32,6 @@ class FibreTextures:
         }  # fmt: skip
 
     def _make(self, fibre: Fibre) -> None:
-        release(self._context, *self._textures)
         tables = fibre_tables(fibre)
         plain, bent = (self._plane(part) for part in np.split(tables.albedo, [4], axis=2))
         self._textures = [self._volume(tables.around), self._volume(tables.spread), plain, bent]

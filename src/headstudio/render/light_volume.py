@@ -10,7 +10,6 @@ import numpy as np
 
 from ..head.mesh import Floats, Ints
 from ..wisp.strands import Singles
-from .context import release
 from .soft_light import NUMBERS
 from .view import bounds_of
 
@@ -81,7 +80,6 @@ class LightVolume:
 
     def __init__(self, context: moderngl.Context, grid: Grid, light: Floats) -> None:
         """``light`` at the nodes near hair, (k, 8, 4), as render/soft_light.py says."""
-        self._context = context
         self._grid = grid
         values = np.zeros((NUMBERS, int(np.prod(grid.shape)), 4), np.float16)
         values[:, grid.near_hair] = light.transpose(1, 0, 2)
@@ -95,7 +93,3 @@ class LightVolume:
         size = self._grid.spacing * np.array(self._grid.shape)
         low = self._grid.low - 0.5 * self._grid.spacing
         return {"soft_volumes": unit, "soft_low": tuple(low), "soft_size": tuple(size)}
-
-    def release(self) -> None:
-        """Give the texture back."""
-        release(self._context, self._volume)

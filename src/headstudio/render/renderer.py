@@ -130,8 +130,7 @@ class Renderer:
             self.context.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
             if before is not None:
                 before.use()
-            if self.context.gc_mode == "context_gc":
-                self.context.gc()
+            self.context.gc()
 
     def render_final(
         self,

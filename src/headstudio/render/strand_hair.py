@@ -197,8 +197,6 @@ class StrandHair:
 
     def take_soft_light(self, sky_light: SkyLight, sky: Sky, sent: Sent) -> None:
         """Work out the soft light all through the hair; ``sent`` as in SkyLight.gather."""
-        if self._soft is not None:
-            self._soft.release()
         light = lit_from_beside(self._grid, sky_light.gather(self._grid.places, sky, sent, _CLEAR * self.survey.width))
         self._soft = LightVolume(self._context, self._grid, light)
         self._filling = filling(sent)

@@ -70,6 +70,7 @@ def strand_picture(
     progress: Progress | None = None,
 ) -> NDArray[np.float32] | None:
     """The scene as linear light, top row first, (size, size, 3); None if ``progress`` stopped it."""
+    context.gc()  # what the picture before this one was made of
     programs = StrandPrograms(context)
     hair = StrandHair(context, programs, StrandSurvey(scene.strands), scene.strands.count, FINE)
     body = PlainBody(context, PlainBodyPrograms(context), _refined(scene))

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from ..head.mesh import Ints
 from ..wisp.strands import Singles, Strands
-from .context import release
 
 POINT_ROW = 2048
 """Points in a row of the textures; ``point_row`` in common/strand_points.glsl."""
@@ -125,8 +124,6 @@ class StrandTextures:
 
     def paint(self, colour: Singles | None) -> None:
         """Give the points of the strands that were packed their colours, linear, (p, 3); None: they have none."""
-        if self.colour is not None:
-            release(self._context, self.colour)
         self.colour = None
         if colour is not None:
             # Colours need no more than half floats.
