@@ -6,10 +6,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from headstudio.head import scalp as scalp_module
 from headstudio.head.cut import cut_patch
-from headstudio.head.hairline import default_curves
+from headstudio.head.hairline import default_curves, wreath
 from headstudio.head.harmonic import map_to_square, mean_value_weights, signed_areas
 from headstudio.head.head import Head, HeadError
+from headstudio.head.load import load_head
 from headstudio.head.locate import Locator, SurfacePoints
 from headstudio.head.mesh import TriangleMesh
 from headstudio.head.refine import ShadedMesh, refine_near
@@ -209,7 +211,31 @@ def test_curves_around_or_over_a_hole_are_refused():
     at_hairline = np.linalg.norm(centres - head.landmarks.hairline, axis=1) < 0.01
     no_forehead = TriangleMesh(head.skin.vertices, head.skin.faces[~at_hairline])
     with pytest.raises(HeadError, match=r"border|without holes"):
-        grow_scalp(dataclasses.replace(head, skin=no_forehead), ScalpSettings())
+        grow_scalp(dataclasses.replace(head, skin=no_forehead), settings_with(default_curves(head)))
+
+
+def test_a_head_without_a_persons_hairline_has_a_wreath(monkeypatch):
+    """Here its curves cross, as they do on a head that is folded at the nape."""
+    head = smooth_head(4)
+    crossing = default_curves(head)
+    monkeypatch.setattr(
+        scalp_module, "default_curves", lambda head: (crossing[0], over_the_temple(crossing[1]), *crossing[2:])
+    )
+    scalp = grow_scalp(head, ScalpSettings())
+    assert "a wreath above the ears" in scalp.notes[0]
+    assert signed_areas(scalp.uv, scalp.patch.faces).min() > 0
+    ears = head.landmarks.left_tragus[1]
+    assert np.concatenate(scalp.curves)[:, 1].min() > ears
+    assert scalp.locate(head.landmarks.crown[None]) == pytest.approx(0.5, abs=0.2)
+
+
+@pytest.mark.parametrize("source", ["makehuman", "mannequin"])
+def test_a_wreath_goes_on_any_head(source):
+    head = load_head(source)
+    curves = wreath(head)
+    scalp = grow_scalp(head, settings_with(curves))
+    assert signed_areas(scalp.uv, scalp.patch.faces).min() > 0
+    assert 0.4 < scalp.area / grow_scalp(head, ScalpSettings()).area < 1.1
 
 
 def test_landmarks_upside_down_are_refused():

@@ -7,6 +7,7 @@ degrees at the tragus, and a height, 0 at the tragus. Each is then found on the 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,6 +25,10 @@ _TYPICAL_EAR = (0.24, 112.0)
 _EAR_TOPS, _EAR_BACKS = (0.1, 0.5), (98.0, 132.0)
 _CLEARANCE, _CLEARANCE_DEGREES = 0.05, 3.0
 _NAPE_CORNER_AZIMUTH = 127.0
+# The wreath from the right temple to the left one and on around the back: azimuth [deg], height as above; where each of
+# its curves begins.
+_WREATH = tuple((azimuth, 0.65 + 0.35 * np.cos(np.radians(azimuth))) for azimuth in range(-60, 300, 20))
+_WREATH_CORNERS = (0, 6, 9, 15)
 # What stands out from its surroundings by this much, seen from outside, belongs to the ear.
 _EAR_STEP = 0.035
 
@@ -42,6 +47,20 @@ def default_curves(head: Head) -> tuple[Floats, ...]:
     front = np.concatenate([right_side[:1], right_front[::-1], marks.hairline[None], left_front, left_side[:1]])
     back = np.stack([left_side[-1], marks.nape, right_side[-1]])
     return front, left_side, back, right_side[::-1]
+
+
+def wreath(head: Head) -> tuple[Floats, ...]:
+    """Control points [m] of four curves that keep above the ears, as ``default_curves`` gives: for heads that are hardly
+    human, on whose temples, ears or nape a hairline gets lost.
+    """
+    around = AroundHead.of(head)
+    rise = head.landmarks.hairline[1] - around.middle[1]
+    azimuth, height = np.array(_WREATH).T
+    height *= min(rise, 0.75 * around.unit)
+    points = around.place(azimuth, height)
+    begins = [*_WREATH_CORNERS, len(points)]
+    closed = np.concatenate([points, points[:1]])
+    return tuple(closed[start : end + 1] for start, end in pairwise(begins))
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ to the nape (1). The map from the skin to the square is phi, the way back is phi
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,9 +14,9 @@ import numpy as np
 
 from . import length_maps
 from .cut import cut_patch
-from .hairline import default_curves
+from .hairline import default_curves, wreath
 from .harmonic import map_to_square
-from .head import Head
+from .head import Head, HeadError
 from .locate import Locator, locator
 from .mesh import Floats, TriangleMesh
 from .refine import ShadedMesh, refine_near
@@ -32,14 +33,15 @@ class Scalp:
 
     patch: the skin cut out along the curves, head frame [m]. uv: of its vertices, shape (n, 2). vertex_normals: the
     head's normals at its vertices, shape (n, 3). curves: the four sides of the cut in the order front, left, back,
-    right, polylines on the skin [m], each of shape (k, 3). whorl: (u, v) of the whorl, shape (2,). length_map: L(u, v).
-    notes: how the map was found, for ``headstudio inspect``.
+    right, polylines on the skin [m], each of shape (k, 3), and controls: the points that led them. whorl: (u, v) of the
+    whorl, shape (2,). length_map: L(u, v). notes: how the map was found, for ``headstudio inspect``.
     """
 
     patch: TriangleMesh
     uv: Floats
     vertex_normals: Floats
     curves: tuple[Floats, ...]
+    controls: tuple[Floats, ...]
     whorl: Floats
     length_map: GrayImage
     notes: tuple[str, ...] = ()
@@ -98,10 +100,21 @@ class Scalp:
 def grow_scalp(head: Head, settings: ScalpSettings) -> Scalp:
     """Cut the scalp out of the head's skin and map it to the square.
 
-    Raises HeadError when the curves cannot be used: off the skin, not joined, crossing, or not around one piece of it.
+    A head on which a person's hairline gets lost has a wreath, and says so. Raises HeadError when the curves cannot be used:
+    off the skin, not joined, crossing, or not around one piece of it.
     """
     given = tuple(np.array(points, dtype=np.float64) for points in settings.curves)
-    samples = sample_curves(given or default_curves(head), locator(head.skin))
+    if given:
+        return _cut_out(head, given, settings)
+    try:
+        return _cut_out(head, default_curves(head), settings)
+    except HeadError as lost:
+        note = f"no hairline as a person's ({lost}): a wreath above the ears instead"
+        return _cut_out(head, wreath(head), settings, (note,))
+
+
+def _cut_out(head: Head, curves: Sequence[Floats], settings: ScalpSettings, notes: tuple[str, ...] = ()) -> Scalp:
+    samples = sample_curves(curves, locator(head.skin))
     skin = refine_near(ShadedMesh(head.skin, head.skin.vertex_normals), np.concatenate(samples), _LARGEST_CUT_TRIANGLE)
     patch = cut_patch(skin, [locator(skin.mesh).nearest(sample)[0] for sample in samples])
     uv, method = map_to_square(patch)
@@ -111,9 +124,10 @@ def grow_scalp(head: Head, settings: ScalpSettings) -> Scalp:
         uv=uv,
         vertex_normals=patch.disc.normals,
         curves=tuple(mesh.vertices[side] for side in patch.sides),
+        controls=tuple(curves),
         whorl=np.array([settings.whorl_u, settings.whorl_v]),
         length_map=settings.painted_lengths or length_maps.preset(settings.length_map),
-        notes=(f"scalp: {1e4 * mesh.face_areas.sum():.0f} cm2 in {len(mesh.faces)} triangles, {method} map",),
+        notes=(*notes, f"scalp: {1e4 * mesh.face_areas.sum():.0f} cm2 in {len(mesh.faces)} triangles, {method} map"),
     )
 
 

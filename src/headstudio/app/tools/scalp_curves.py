@@ -10,8 +10,6 @@ from imgui_bundle import icons_fontawesome_6 as icons
 from numpy.typing import NDArray
 
 from ...head.frame import HeadFrame
-from ...head.hairline import default_curves
-from ...head.head import Head
 from ...head.mesh import Floats
 from ...head.scalp_curves import catmull_rom
 from .. import theme
@@ -35,7 +33,6 @@ class ShapeScalp(Tool):
 
     def __init__(self, studio: Studio) -> None:
         super().__init__(studio)
-        self._placed: tuple[Head, Curves] | None = None
 
     def press(self, pointer: Pointer) -> bool:
         """Take the handle under the mouse."""
@@ -92,14 +89,8 @@ class ShapeScalp(Tool):
     def _curves(self) -> Curves | None:
         if self.studio.grown is None:
             return None
-        chosen = self.studio.document.scalp.curves
-        return chosen or self._defaults(self.studio.grown.animation.head)
-
-    def _defaults(self, head: Head) -> Curves:
-        """The curves placed from landmarks, found once for each head."""
-        if self._placed is None or self._placed[0] is not head:
-            self._placed = (head, _as_tuples(default_curves(head)))
-        return self._placed[1]
+        # Those that were placed from landmarks until some are chosen.
+        return self.studio.document.scalp.curves or _as_tuples(self.studio.grown.animation.scalp.controls)
 
 
 def _draw_line(canvas: Canvas, line: Floats, middle: Floats) -> None:
