@@ -1,4 +1,4 @@
-// Light that reaches a place: past the objects (shadow map) and through the hair (light map).
+// Light that reaches what is not hair: past the objects (shadow map) and through the hair (light map with soft edges).
 uniform sampler2DShadow shadow_map;
 uniform sampler2D light_map;
 
@@ -17,14 +17,9 @@ float past_objects_at(vec3 at, float radius) {
     return lit * 0.2;
 }
 
-float through_hair_at(vec2 at, float radius) {
-    float reach = 0.7 * radius / shadow.y;
-    return 0.5 * (textureLod(light_map, at + reach, 0.0).r + textureLod(light_map, at - reach, 0.0).r);
-}
-
-// bias [m] towards the light.
+// bias [m] towards the light; radius of the soft edge of objects [m].
 float light_at(vec3 place, float bias, float radius) {
     if (shadow.x < 0.5) return 1.0;
     vec3 at = light_box(place + to_light.xyz * bias);
-    return past_objects_at(at, radius) * through_hair_at(at.xy, radius);
+    return past_objects_at(at, radius) * textureLod(light_map, at.xy, 0.0).r;
 }

@@ -2,6 +2,7 @@
 // A ribbon along the curve of a particle's hair, turned about the hair to face the eye.
 #include "common/scene.glsl"
 #include "common/particles.glsl"
+#include "common/strands.glsl"
 in vec2 corner;               // side -1 to 1; section, root first
 in int ribbon;
 in float shown;               // 0 where hair in front covers it, to 1
@@ -40,8 +41,9 @@ float lifted_depth(vec4 at) {
 }
 
 void main() {
-    vec4 across_hair = record(ribbons, ribbon, 2, 0);
-    vec4 look = record(ribbons, ribbon, 2, 1);
+    vec4 across_hair = record(ribbons, ribbon, 3, 0);
+    vec4 look = record(ribbons, ribbon, 3, 1);
+    float ending = record(ribbons, ribbon, 3, 2).x;
     int curve = int(look.z + 0.5);
     int section = int(corner.y);
     vec4 path = record(curves, curve, texels, section);
@@ -59,8 +61,8 @@ void main() {
     vec3 across = cross(t, to_eye);
     float sine = length(across);
     across = sine > 1e-4 ? across / sine : side.xyz;
-    // Locks run to a point at both ends.
-    place += across * corner.x * ribbon_half_width * length(side.xyz) * (1.0 - 0.45 * along * along);
+    // Locks run to a point where they end.
+    place += across * corner.x * ribbon_half_width * length(side.xyz) * (1.0 - 0.45 * ending * max(along, 0.0) * along);
 
     vec3 lights = record(light, int(look.w + 0.5), 1, 0).rgb;
     float received = mix(lights.g, along < 0.0 ? lights.r : lights.b, abs(along));
@@ -84,8 +86,8 @@ void main() {
     // The cosine between the eye and the mirrored light, and how it changes where scales tilt a strand.
     float sines = max(sin_l * sine, 0.05);
     float tilt = -(t_l * sine * sine + t_v * sin_l * sin_l) / sines - t_l - t_v;
-    v_gleam = vec4(sin_l * sine - t_l * t_v, scales * tilt, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown);
-    v_at = vec2(look.x + 0.5 * window_width * corner.x, 0.5 + 0.5 * along);
+    v_gleam = vec4(sin_l * sine - t_l * t_v, scales * tilt, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown * goes_over(along, ending));
+    v_at = vec2(look.x + 0.5 * window_width * corner.x, strip_row(along, ending));
     gl_Position = clip_from_world * vec4(place, 1.0);
     gl_Position.z = lifted_depth(gl_Position);
 }

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from headstudio.head.mesh import Floats
+from headstudio.render.strand_texture import ENDS
 
 
 def reduced(image: Floats, level: int) -> Floats:
@@ -51,7 +52,8 @@ def _draw(light_map: Floats, board: Any, lit: float, strands: Floats) -> None:
     across = (dx * ay - dy * ax) / board["half_width"]
     along = (dx * ax + dy * ay) / board["half_length"]
     t = 1 - across**2
-    opacity = nearest(strands, board["window"] + 0.5 * board["window_width"] * across, 0.5 + 0.5 * along)
-    opacity = opacity * t * (2 - t) * board["opacity"] * lit
+    # Before the rows where strands end; billboards go over one into the other.
+    opacity = nearest(strands, board["window"] + 0.5 * board["window_width"] * across, 0.5 * ENDS * (1 + along))
+    opacity = opacity * t * (2 - t) * (1 - along**2) * board["opacity"] * lit
     inside = (np.abs(across) < 1) & (np.abs(along) < 1)
     light_map[low[1] : high[1], low[0] : high[0]] *= np.where(inside, 1 - opacity, 1.0)

@@ -15,6 +15,7 @@ from headstudio.render.light_billboards import LEAST_SINE, light_billboards, opa
 from headstudio.render.renderer import Renderer
 from headstudio.render.strand_levels import LIGHT_LEVEL
 from headstudio.render.strands import CurveBuilder
+from headstudio.render.targets import light_targets
 from headstudio.render.view import light_view
 from headstudio.resources import asset
 from headstudio.scene.settings import Camera, Look
@@ -122,3 +123,17 @@ def test_without_shadows_everybody_has_all_the_light(
     assert stage.hair is not None
     renderer.render(stage, dataclasses.replace(look, shadows=False), camera, (64, 64))
     np.testing.assert_array_equal(received(renderer, stage.hair.model.count), 1.0)
+
+
+def test_stripes_of_the_light_map_are_gone_where_it_is_soft(gl: moderngl.Context) -> None:
+    """Strands that particles are drawn with are made up, and throw no stripes on a face; whole locks throw a shadow."""
+    maps = light_targets(gl, 512)
+    column = np.arange(512)
+    stripes, half = np.where(column % 4 < 2, 0.2, 0.8), np.where(column < 256, 0.0, 1.0)
+    for values, wanted in ((stripes, np.full(128, 0.5)), (half, np.where(np.arange(128) < 64, 0.0, 1.0))):
+        maps.map.write(np.tile(values, (512, 1)).astype(np.float16).tobytes())
+        Renderer(gl)._soften_light(maps)
+        soft = np.frombuffer(maps.soft.read(), np.float16).reshape(128, 128).astype(float)
+        near_edge = np.isin(np.arange(128), (63, 64)) if values is half else np.zeros(128, bool)
+        np.testing.assert_allclose(soft[:, ~near_edge], np.tile(wanted, (128, 1))[:, ~near_edge], atol=0.01)
+        assert ((soft[:, near_edge] > 0.2) & (soft[:, near_edge] < 0.8)).all()

@@ -11,7 +11,7 @@ from headstudio.lcp.model import HairModel
 from headstudio.render.covered import shown_through_hair
 from headstudio.render.particle_texture import neighbour_records
 from headstudio.render.ribbons import farthest_first, lay_out_ribbons
-from headstudio.render.strands import SECTIONS, CurveBuilder, HairCurves, openness
+from headstudio.render.strands import SECTIONS, CurveBuilder, HairCurves, ending, openness
 from headstudio.render.undergrowth import Undergrowth
 from headstudio.render.view import camera_view
 from headstudio.scene.settings import Camera
@@ -147,7 +147,7 @@ def test_sideways_stays_across_hair_that_moved(hair_model: HairModel) -> None:
 
 def test_ribbons_go_from_far_to_near(hair_model: HairModel) -> None:
     view, half_width = camera_view(Camera(azimuth=0.4), 1.0), 0.007
-    ribbons, curves = lay_out_ribbons(hair_model.count, 3, np.zeros(0, int)), curves_of(hair_model)
+    ribbons, curves = lay_out_ribbons(ending(hair_model), 3, np.zeros(0, int)), curves_of(hair_model)
     curve = ribbons["curve"].astype(int)
     other = np.cross(curves.direction, curves.sideways)
     middles = curves.position[curve] + half_width * (
@@ -156,6 +156,25 @@ def test_ribbons_go_from_far_to_near(hair_model: HairModel) -> None:
     order = farthest_first(ribbons, curves, half_width, view)
     np.testing.assert_array_equal(np.sort(order), np.arange(3 * hair_model.count))
     assert (np.diff(view.depth(middles[order])) <= 1e-9).all()
+
+
+def test_strands_end_where_hair_does_and_nowhere_else() -> None:
+    long, short = straight_hair(30), straight_hair(12)
+    # Side by side, farther apart than hair that tells of its neighbour's end.
+    apart = np.array([1.0, 0.0, 0.0])
+    model = model_of(
+        np.concatenate([long.rest_positions, short.rest_positions + apart]),
+        np.concatenate([long.rest_directions, short.rest_directions]),
+        np.concatenate([long.arc_length, short.arc_length]),
+        np.concatenate([long.root_points, short.root_points + apart]),
+    )
+    ends = ending(model)
+    for part, arc in ((ends[:30], long.arc_length), (ends[30:], short.arc_length)):
+        assert part[-1] == 1.0
+        assert (part[arc < arc[-1] - 0.031] == 0.0).all()
+        assert (np.diff(part) >= 0.0).all()
+    ribbons = lay_out_ribbons(ends, 400, np.zeros(0, int))
+    np.testing.assert_allclose(ribbons["ending"].reshape(42, 400).mean(axis=1), ends, atol=0.1)
 
 
 def test_undergrowth_lies_on_the_scalp_and_moves_with_the_head(egg: Head, hair_model: HairModel) -> None:

@@ -19,7 +19,7 @@ from .ribbons import CURVE_DTYPE, RIBBON_DTYPE, curve_texels, farthest_first, la
 from .scene_block import linear
 from .strand_levels import StrandLevels
 from .strand_texture import STRIP_WIDTH
-from .strands import SECTIONS, CurveBuilder, HairCurves, joined, openness
+from .strands import SECTIONS, CurveBuilder, HairCurves, ending, joined, openness
 from .targets import LightTargets
 from .undergrowth import Undergrowth
 from .view import View
@@ -51,7 +51,7 @@ class Hair:
         self._undergrowth = Undergrowth(head, model)
         self._openness = np.concatenate([openness(model), np.full(len(self._undergrowth), 0.6)])
         self._placed: tuple[HairOnStage, HeadFrame, float] | None = None
-        self._laid_out = lay_out_ribbons(model.count, per_particle, self._undergrowth.source)
+        self._laid_out = lay_out_ribbons(ending(model), per_particle, self._undergrowth.source)
         windows = self._laid_out["window"][: model.count * per_particle : per_particle]
         self.light = HairLight(context, programs.light, model, windows)
         self._curve_texture = RecordTexture(context, CURVE_DTYPE, len(self._openness))

@@ -65,8 +65,9 @@ def light_billboards(
     out["axis"] = axis
     out["half_width"] = half_width
     out["half_length"] = half_width * look.billboard_stretch * np.maximum(sine, LEAST_SINE)
-    # Hair that is not drawn casts no shadow.
-    out["opacity"] = opacity_scale(direction @ light.forward, look.hair_opacity) * curves.grown[order, -1]
+    # Of the light that meets strands some goes on through them; hair that is not drawn casts no shadow.
+    stopped = look.hair_opacity * (1.0 - look.forward_scatter)
+    out["opacity"] = opacity_scale(direction @ light.forward, stopped) * curves.grown[order, -1]
     out["window"] = windows[order]
     out["window_width"] = look.billboard_width * model.spacing / STRIP_WIDTH
     out["depth"] = depth[order] / light.far

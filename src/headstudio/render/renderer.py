@@ -51,6 +51,7 @@ class Renderer:
         self._adornment_programs = AdornmentPrograms(context)
         self._overlays = OverlayPass(context)
         self._screens = ScreenPasses(context, "reduce", "develop")
+        self._light_screens = ScreenPasses(context, "soft_map", room="light")
         self._scene_block = context.buffer(reserve=SCENE_DTYPE.itemsize, dynamic=True)
         self._body: Body | LivingBody | None = None
         self._limb: LimbBody | None = None
@@ -111,9 +112,9 @@ class Renderer:
             self._scene_block.write(scene_block(view, light, HeadFrame(), look).tobytes())
             self._scene_block.bind_to_uniform_block(0)
             self._cast_shadows(self._limb, None, light, look, maps)
-            maps.light.clear(1.0, 1.0, 1.0, 1.0)
+            maps.softened.clear(1.0, 1.0, 1.0, 1.0)
             maps.depth.use(0)
-            maps.map.use(1)
+            maps.soft.use(1)
             # A limb has no brows, whose strokes are all that its skin would take from this.
             self._hair_programs.strands.seen(view, camera.distance, targets.scene.height).use(2)
             canvas = self._draw_body(self._limb, view, look, targets, skin)
@@ -180,8 +181,9 @@ class Renderer:
             self._shed_light(hair, light, look, maps)
             if strands is not None:
                 self._strands.shed_light(strands, stage, light, look, maps)
+            self._soften_light(maps)
         maps.depth.use(0)
-        maps.map.use(1)
+        maps.soft.use(1)
         self._hair_programs.strands.seen(view, float(view.depth(stage.frame.translation)), targets.scene.height).use(2)
         with timer.stage("body"):
             canvas = self._draw_body(body if look.show_head else None, view, look, targets, skin)
@@ -254,6 +256,12 @@ class Renderer:
         maps.light.clear(1.0, 1.0, 1.0, 1.0)
         if hair is not None:
             hair.shed_light(light, look, maps)
+
+    def _soften_light(self, maps: LightTargets) -> None:
+        with self.context.scope(maps.softened, moderngl.NOTHING):
+            maps.map.build_mipmaps(0, int(np.log2(maps.size / maps.soft.width)))
+            maps.map.use(0)
+            self._light_screens.draw("soft_map", light_map=0, size=float(maps.soft.width))
 
     def _draw_body(
         self, body: Body | SkinBody | None, view: View, look: Look, targets: PictureTargets, skin: SkinSettings

@@ -16,20 +16,26 @@ CURVE_DTYPE = np.dtype(
 the openness in w."""
 
 RIBBON_DTYPE = np.dtype(
-    [("spread", "f4", 2), ("lean", "f4", 2), ("window", "f4"), ("tone", "f4"), ("curve", "f4"), ("lit_as", "f4")]
-)
+    [
+        ("spread", "f4", 2), ("lean", "f4", 2), ("window", "f4"), ("tone", "f4"), ("curve", "f4"), ("lit_as", "f4"),
+        ("ending", "f4"), ("_unused", "f4", 3),
+    ]
+)  # fmt: skip
 """What one ribbon keeps for ever, as texels. spread: place across the hair in half widths of the particle's billboard;
 lean: how its direction departs from the curve's; window of the strand texture; tone: how much lighter its strands are
-than most, in standard deviations; curve: which one it follows; lit_as: the particle whose light falls on it."""
+than most, in standard deviations; curve: which one it follows; lit_as: the particle whose light falls on it; ending: 0
+where hair goes on at its tipward end, and goes over into what follows, 1 where its strands come to their end."""
 
 _GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
 
 
-def lay_out_ribbons(count: int, per_particle: int, undergrowth: Ints) -> NDArray[np.void]:
-    """The ribbons of ``count`` particles, particle by particle, then one for each curve of the undergrowth, of
-    ``RIBBON_DTYPE``. undergrowth: the particles that these take their light from, (c,).
+def lay_out_ribbons(ending: Floats, per_particle: int, undergrowth: Ints) -> NDArray[np.void]:
+    """The ribbons of n particles, particle by particle, then one for each curve of the undergrowth, of ``RIBBON_DTYPE``.
+
+    ending: the part of the ribbons of each particle that end there, (n,). undergrowth: the particles that its curves take
+    their light from, (c,).
     """
-    n, k = count, np.arange(per_particle)
+    n, k = len(ending), np.arange(per_particle)
     rng = np.random.default_rng(0)
     out = np.zeros((n, per_particle), RIBBON_DTYPE)
     # A sunflower around the particle, turned by a random angle of its own.
@@ -41,6 +47,7 @@ def lay_out_ribbons(count: int, per_particle: int, undergrowth: Ints) -> NDArray
     # Locks of hair share most of their colour, ribbons of a lock differ a little.
     out["tone"] = 0.8 * rng.normal(size=(n, per_particle)) + 0.6 * rng.normal(size=(n, 1))
     out["curve"] = out["lit_as"] = np.arange(n)[:, None]
+    out["ending"] = rng.uniform(size=(n, per_particle)) < ending[:, None]
     short = np.zeros(len(undergrowth), RIBBON_DTYPE)
     short["window"] = rng.uniform(0, 1, len(short))
     short["tone"] = rng.normal(0, 0.5, len(short))

@@ -23,38 +23,51 @@ WIDTH, HEIGHT = 1024, 256
 STRIP_WIDTH = 0.113
 """How wide the strip is on the hair [m]: strands are as thick in wide billboards as in narrow ones."""
 
-STRANDS = 420
-LOCKS = 44
+STRANDS = 720
+WISPS = 180
+LOCKS = 45
 SEED = 7
+ENDS = 0.6
+"""Strands end in the rows behind this part of the strip (common/strands.glsl)."""
+
 _OVERSAMPLING = 4
+_LOOSE = 0.15  # of the strands end where they like, the others where their lock does
+_POINT = 0.3  # how thin a lock is at its end, as a part of what it is before
 
 
 def strand_texture(seed: int = SEED) -> NDArray[np.uint8]:
     """Opacity, tone and nothing, shape (HEIGHT, WIDTH, 3); row 0 is the rootward end.
 
-    Strands gather in locks of a few, as hair does: it is the locks that are still seen when a billboard is only a dozen
-    pixels wide. Each strand starts and ends somewhere of its own, so that billboards end ragged and not in an edge.
+    Strands gather in wisps of a few, and these in locks, as hair does: each is what is seen from its own distance, when a
+    billboard is only a dozen pixels wide or a hundred. A strand is there or not, up to its end. Hair thins out because its
+    locks run to a point and end in different places, and not because it becomes a haze: over skin that would be a stain.
     """
     rng = np.random.default_rng(seed)
-    lock_of = rng.integers(0, LOCKS, STRANDS)
-    lock_centre = (np.arange(LOCKS) + rng.uniform(-0.4, 0.4, LOCKS)) / LOCKS
+    wisp_of, lock_of = np.arange(STRANDS) % WISPS, np.arange(STRANDS) % WISPS % LOCKS
+    lock_centre = (np.arange(LOCKS) + rng.uniform(-0.3, 0.3, LOCKS)) / LOCKS
     lock_wave = _waves(rng, LOCKS, sigma=60, size=0.35 / LOCKS)
-    strand_wave = _waves(rng, STRANDS, sigma=45, size=0.22 / LOCKS)
-    home = lock_centre[lock_of] + rng.normal(0, 0.33 / LOCKS, STRANDS)
-    centres = home[:, None] + lock_wave[lock_of] + strand_wave
+    wisp_wave = _waves(rng, WISPS, sigma=45, size=0.22 / LOCKS)
+    strand_wave = _waves(rng, STRANDS, sigma=45, size=0.08 / LOCKS)
+    wisp_aside = rng.normal(0, 0.30 / LOCKS, WISPS)[:, None] + wisp_wave
+    aside = wisp_aside[wisp_of] + rng.normal(0, 0.08 / LOCKS, STRANDS)[:, None] + strand_wave
 
     v = (np.arange(HEIGHT) + 0.5) / HEIGHT
-    start = rng.uniform(-0.05, 0.30, STRANDS)[:, None]
-    end = rng.uniform(0.62, 1.0, STRANDS)[:, None]
-    grown = np.clip((v - start) / 0.12, 0, 1) * np.clip((end - v) / 0.30, 0, 1)
-    half_width = rng.lognormal(np.log(1.5 / WIDTH), 0.25, STRANDS)[:, None] * np.sqrt(grown)
+    lock_end = rng.uniform(ENDS + 0.12, 1.0, LOCKS)[lock_of]
+    loose = rng.uniform(size=STRANDS) < _LOOSE
+    end = np.where(loose, rng.uniform(ENDS, 1.0, STRANDS), lock_end - rng.exponential(0.06, STRANDS))[:, None]
+    ended = np.clip((v - ENDS) / (lock_end[:, None] - ENDS), 0, 1)
+    aside *= np.where(loose[:, None], 1.0, 1.0 - (1.0 - _POINT) * ended**2)
+    centres = lock_centre[lock_of, None] + lock_wave[lock_of] + aside
 
-    lock_tone = rng.normal(0, 0.13, LOCKS)
-    tone = np.clip(0.5 + lock_tone[lock_of] + rng.normal(0, 0.11, STRANDS), 0.08, 0.95)
-    opacity = rng.uniform(0.55, 1.0, STRANDS)[:, None] * np.sqrt(grown)
+    pointed = np.clip((end - v) / 0.08, 0, 1)
+    half_width = rng.lognormal(np.log(1.5 / WIDTH), 0.25, STRANDS)[:, None] * np.sqrt(pointed)
+
+    tones = [rng.normal(0, spread, count) for count, spread in ((LOCKS, 0.13), (WISPS, 0.12), (STRANDS, 0.11))]
+    tone = np.clip(0.5 + tones[0][lock_of] + tones[1][wisp_of] + tones[2], 0.08, 0.95)
+    opacity = rng.uniform(0.85, 1.0, STRANDS)[:, None] * (pointed > 0)
     # The frontmost strand wins a texel; strands deep in their lock get less light.
-    height = rng.uniform(0, 1, STRANDS)
-    tone *= 0.72 + 0.4 * height
+    height = 0.5 * (rng.uniform(0, 1, WISPS)[wisp_of] + rng.uniform(0, 1, STRANDS))
+    tone = np.minimum(tone * (0.72 + 0.4 * height), 1.0)
     return _rasterised(centres % 1.0, half_width, opacity, tone, height)
 
 

@@ -26,6 +26,7 @@ _MIDDLE = SECTIONS // 2
 _NEIGHBOURS_ASKED = 24
 # Arc lengths [m] between which hair fades in: ribbons start softly, and a few millimetres beside their own root.
 _LEAVES_SCALP = (-0.002, 0.014)
+_ENDS = 0.03  # before its end hair begins to thin out [m]
 # Hair that strays is a narrower lock by this part, and begins this far [m] before the particle it comes from.
 _THINNER = 0.5
 _EARLIER = 0.015
@@ -141,6 +142,19 @@ def openness(model: HairModel) -> Floats:
     distance, near = cKDTree(above).query(model.rest_positions, k=range(1, min(_NEIGHBOURS_ASKED, len(above)) + 1))
     offset = np.linalg.norm(above[near].mean(axis=1) - model.rest_positions, axis=1)
     return np.clip(offset / np.maximum(0.75 * distance.mean(axis=1), 1e-12), 0.0, 1.0)
+
+
+def ending(model: HairModel) -> Floats:
+    """What part of the hair at each particle ends there, from 0 where it goes on for more than _ENDS to 1 at its end, (n,).
+
+    Where hair ends is where the last particle is that is rooted beside it.
+    """
+    roots = cKDTree(model.root_points)
+    pairs = roots.query_pairs(model.spacing, output_type="ndarray")
+    last = model.arc_length.copy()
+    for one, other in (pairs.T, pairs.T[::-1]):
+        np.maximum.at(last, one, model.arc_length[other])
+    return np.clip(1.0 - (last - model.arc_length) / _ENDS, 0.0, 1.0)
 
 
 def unit(vectors: Floats) -> Floats:

@@ -11,6 +11,10 @@ from .context import RenderError
 
 Size = tuple[int, int]
 
+SOFT_SIZE = 128
+"""Texels a side of the light map for what is not hair: one is half a centimetre, as fine as what particles know of hair. The
+strands that they are drawn with are made up, and their shadows on a face would be stripes."""
+
 
 @dataclass(frozen=True, eq=False)
 class PictureTargets:
@@ -85,13 +89,16 @@ class ScatteringTargets:
 
 @dataclass(frozen=True, eq=False)
 class LightTargets:
-    """Seen from the light: the depth of the objects, and the part of the light that the hair lets through."""
+    """Seen from the light: the depth of the objects, and the part of the light that the hair lets through. ``soft``: that
+    with soft edges, in SOFT_SIZE texels, for what is not hair."""
 
     size: int
     shadow: moderngl.Framebuffer
     depth: moderngl.Texture
     light: moderngl.Framebuffer
     map: moderngl.Texture
+    softened: moderngl.Framebuffer
+    soft: moderngl.Texture
 
 
 def picture_targets(context: moderngl.Context, size: Size, supersampling: int) -> PictureTargets:
@@ -134,7 +141,16 @@ def light_targets(context: moderngl.Context, size: int) -> LightTargets:
     depth.filter = (moderngl.LINEAR, moderngl.LINEAR)
     depth.repeat_x = depth.repeat_y = False
     light = _texture(context, (size, size), 1, "f2", moderngl.LINEAR)
-    return LightTargets(size, context.framebuffer([], depth), depth, context.framebuffer([light]), light)
+    soft = _texture(context, (min(size, SOFT_SIZE),) * 2, 1, "f2", moderngl.LINEAR)
+    return LightTargets(
+        size,
+        context.framebuffer([], depth),
+        depth,
+        context.framebuffer([light]),
+        light,
+        context.framebuffer([soft]),
+        soft,
+    )
 
 
 def _texture(context: moderngl.Context, size: Size, parts: int, kind: str, smooth: int) -> moderngl.Texture:

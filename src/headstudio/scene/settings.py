@@ -88,14 +88,14 @@ class Look:
         "How many narrow billboards share the place of one particle: more look finer, and cost.",
         live=True,
     )
-    hair_opacity: float = number(0.8, "Opacity", "", 0.05, 1.0, "Opacity of a billboard in its middle.", live=True)
+    hair_opacity: float = number(0.95, "Opacity", "", 0.05, 1.0, "Opacity of a billboard in its middle.", live=True)
     forward_scatter: float = number(
         0.3,
         "Transmission",
         "",
         0.0,
         1.0,
-        "Goldman's directionality: light sent through hair, against light sent back.",
+        "Goldman's directionality: light sent through hair, against light sent back. It goes on to the hair behind.",
         live=True,
     )
     gloss: float = number(40.0, "Gloss", "", 2.0, 200.0, "Exponent of the highlight of hair.", log=True, live=True)
