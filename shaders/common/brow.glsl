@@ -7,7 +7,8 @@ float across_brow(vec3 rest) {
 
 // How much of the skin they cover. painted: of the vertices, 0 to 1.
 float brow_cover(float painted, float across, sampler2D hair) {
-    float stroke = textureLod(hair, vec2(23.0 * across, 0.5), 0.0).r;
+    vec2 strand = textureLod(hair, vec2(23.0 * across, 0.3), 0.0).rg;
+    float stroke = min(1.6 * strand.r * strand.g, 1.0);
     float thick = painted * smoothstep(0.0, 0.55, painted);
     return min(1.3 * thick * (0.6 + 0.4 * stroke), 0.95);
 }

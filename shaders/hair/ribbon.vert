@@ -27,14 +27,18 @@ const float scales = 0.28;  // how far the scales tilt the darkest and the light
 const vec3 above = vec3(0.0, 0.96, 0.28);
 
 // A ribbon is straighter than the shoulder it lies on. Where it runs just under the skin it is drawn a little above it
-// instead; what is farther behind [m] stays hidden.
+// instead; what is farther behind [m] stays hidden. In between it fades: tips that point into the skin would be cut off.
 const float above_skin = 0.003;
 const float hidden = 0.016;
 
-float lifted_depth(vec4 at) {
+// How far the skin at the same pixel is before a place [m].
+float behind_skin(vec4 at) {
     ivec2 size = textureSize(body_distance, 0);
     ivec2 pixel = ivec2((at.xy / at.w * 0.5 + 0.5) * vec2(size));
-    float behind = at.w - texelFetch(body_distance, clamp(pixel, ivec2(0), size - 1), 0).r;
+    return at.w - texelFetch(body_distance, clamp(pixel, ivec2(0), size - 1), 0).r;
+}
+
+float lifted_depth(vec4 at, float behind) {
     float lift = max(behind + above_skin, 0.0) * (1.0 - smoothstep(0.5 * hidden, hidden, behind));
     float near = shadow.z, far = shadow.w;
     return (far + near - 2.0 * far * near / (at.w - lift)) / (far - near) * at.w;
@@ -89,5 +93,7 @@ void main() {
     v_gleam = vec4(sin_l * sine - t_l * t_v, scales * tilt, received * directed, min(opacity / max(sine, least_sine), 1.0) * tangent.w * shown * goes_over(along, ending));
     v_at = vec2(look.x + 0.5 * window_width * corner.x, strip_row(along, ending));
     gl_Position = clip_from_world * vec4(place, 1.0);
-    gl_Position.z = lifted_depth(gl_Position);
+    float behind = behind_skin(gl_Position);
+    gl_Position.z = lifted_depth(gl_Position, behind);
+    v_gleam.w *= 1.0 - smoothstep(0.25 * hidden, 0.75 * hidden, behind) * (1.0 - smoothstep(hidden, 2.0 * hidden, behind));
 }

@@ -120,6 +120,46 @@ def test_hair_that_would_have_to_come_from_afar_is_not_drawn_nor_what_hangs_on_i
     assert (grown[20:, -1] == 1).all()
 
 
+def test_hair_that_would_turn_on_the_spot_ends_before_it_does() -> None:
+    """A tip that comes to lie behind what it hangs on would be a hook."""
+    model = straight_hair(20)
+    shown = []
+    for angle in np.radians(np.linspace(0, 180, 61)):
+        directions = model.rest_directions.copy()
+        directions[14:] = [np.sin(angle), -np.cos(angle), 0]
+        positions = model.rest_positions.copy()
+        positions[14:] = positions[13] + 0.01 * np.arange(1, 7)[:, None] * directions[14:]
+        curves = CurveBuilder(model).curves(HairOnStage(model, positions, directions), HeadFrame(), 0.03)
+        turn = np.einsum("nsi,nsi->ns", curves.tangent[:, 1:], curves.tangent[:, :-1])
+        assert (curves.grown[:, 1:][turn < np.cos(np.radians(50))] == 0).all()
+        shown.append(curves.grown[5:, 1:])
+    shown = np.array(shown)
+    assert (shown[0] == 1).all()
+    # Up to a turn that hair makes, and of hair that ends before the kink: all of it.
+    assert (shown[5] == 1).all()
+    assert (shown[:, :5] == 1).all()
+    assert (shown[-1, 8:] < 1).any()
+    assert (np.abs(np.diff(shown, axis=0)) < 0.35).all()
+
+
+def test_a_curve_reaches_the_hair_that_it_comes_from() -> None:
+    arc = np.array([-0.01, 0.0, 0.01, 0.02, 0.08, 0.09])
+    down = np.array([0.0, -1.0, 0.0])
+    model = model_of(arc[:, None] * down, np.tile(down, (6, 1)), arc, np.zeros((6, 3)))
+    model = dataclasses.replace(
+        model,
+        links=np.array([[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]]),
+        rest_length=np.array([0.01, 0.01, 0.01, 0.06, 0.01]),
+        alignment=np.ones(5),
+        strength=np.ones(5),
+        rest_cosine=np.ones((5, 2)),
+    )
+    curves = curves_of(model, half_length=0.02)
+    np.testing.assert_allclose(curves.path[4, 0], model.rest_positions[3], atol=1e-9)
+    np.testing.assert_allclose(curves.path[5, 0], 0.07 * down, atol=1e-9)
+    assert (np.abs(curves.along) <= 1).all()
+
+
 def test_hair_goes_astray_little_by_little() -> None:
     """No curve jumps while a lock is drawn out of the hair."""
     model = hung(hanging_hair(0.0), 13, 10)

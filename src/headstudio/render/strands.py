@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
+from ..head.smooth import smoothstep
 from ..lcp.model import HairModel
 from ..scene.stage import HairOnStage
 from .strays import StrayFinder, Strays
@@ -27,6 +28,8 @@ _NEIGHBOURS_ASKED = 24
 # Arc lengths [m] between which hair fades in: ribbons start softly, and a few millimetres beside their own root.
 _LEAVES_SCALP = (-0.002, 0.014)
 _ENDS = 0.03  # before its end hair begins to thin out [m]
+# Hair that would turn from section to section by the first angle begins to go, by the second it has gone [rad].
+_KINK = (np.radians(25), np.radians(50))
 # Hair that strays is a narrower lock by this part, and begins this far [m] before the particle it comes from.
 _THINNER = 0.5
 _EARLIER = 0.015
@@ -39,8 +42,8 @@ class HairCurves:
     position [m] and unit direction of the particles, (n, 3); sideways: a vector across the hair that turns with it, of
     length 1, or less where hair strays in narrow locks, (n, 3). path [m] and tangent (unit) at the sections, root first,
     (n, SECTIONS, 3); along: their distances from the particle as a part of the curve's half length, -1 to 1,
-    (n, SECTIONS). grown: 0 where the hair is still under the scalp or not drawn at all, 1 where it has left the scalp for
-    good, (n, SECTIONS).
+    (n, SECTIONS). grown: 0 where the hair is still under the scalp or not drawn at all, as beyond a kink, 1 where it has
+    left the scalp for good, (n, SECTIONS).
     """
 
     position: Floats
@@ -65,9 +68,15 @@ class CurveBuilder:
         self._rest_sideways = _across(model.rest_directions)
         # No curve starts deeper under the scalp than the roots lie.
         self._depth = model.arc_length - model.arc_length.min(initial=0.0)
+        # At its border hair may be so thin that the next particle towards the root is farther than a curve reaches.
+        self._gap = np.full(model.count, np.inf)
+        np.minimum.at(self._gap, tip, model.rest_length)
+        self._gap[np.isinf(self._gap)] = 0.0
 
     def curves(self, hair: HairOnStage, frame: HeadFrame, half_length: float) -> HairCurves:
-        """The curves reaching ``half_length`` [m] to both sides of each particle, but not out of the roots."""
+        """The curves reaching ``half_length`` [m] to both sides of each particle, but not out of the roots, and towards them
+        as far as hair comes from.
+        """
         turn = frame.rotation.as_matrix().T
         position = hair.positions @ turn + frame.translation
         combed = self._combed(hair)
@@ -79,18 +88,21 @@ class CurveBuilder:
         path, tangent = np.empty((2, len(position), SECTIONS, 3))
         along = np.empty((len(position), SECTIONS))
         path[:, _MIDDLE], tangent[:, _MIDDLE], along[:, _MIDDLE] = position, direction, 0.0
-        reach = np.minimum(half_length, self._depth)
+        reach = np.minimum(np.maximum(half_length, self._gap), self._depth)
         for sign, directions, length in ((-1, rootward, reach), (1, tipward, np.full(len(position), half_length))):
             for k in range(1, _MIDDLE + 1):
                 here, before = _MIDDLE + sign * k, _MIDDLE + sign * (k - 1)
                 tangent[:, here] = _at(directions, k / _MIDDLE * length / self._hop)
                 step = 0.5 * sign / _MIDDLE * length[:, None] * (tangent[:, here] + tangent[:, before])
                 path[:, here] = path[:, before] + step
-                along[:, here] = sign * k / _MIDDLE * length / half_length
+                along[:, here] = sign * k / _MIDDLE * np.minimum(length / half_length, 1.0)
         _follow_lifelines(strays, turn, frame.translation, path, tangent)
         from_scalp = self.model.arc_length[:, None] + half_length * along
         grown = np.clip((from_scalp - _LEAVES_SCALP[0]) / (_LEAVES_SCALP[1] - _LEAVES_SCALP[0]), 0.0, 1.0)
         grown *= 1.0 - strays.lost[:, None]
+        straight = np.cumprod(_goes_round(tangent), axis=1)
+        # It has gone where the kink begins.
+        grown *= np.concatenate([straight, straight[:, -1:]], axis=1)
         sideways = self._sideways(combed) @ turn
         sideways[strays.which] *= 1.0 - _THINNER * strays.astray[:, None]
         return HairCurves(position, direction, sideways, path, tangent, along, grown)
@@ -169,6 +181,16 @@ def _at(directions: list[Floats], hops: Floats) -> Floats:
     first, second = weights
     third = 1 - first - second
     return unit(first[:, None] * directions[0] + second[:, None] * directions[1] + third[:, None] * directions[2])
+
+
+def _goes_round(tangent: Floats) -> Floats:
+    """From 1 where hair goes on from section to section to 0 where it would have to turn on the spot, (n, SECTIONS - 1).
+
+    A few particles in a hundred, at the loose ends of the hair, come to lie behind what they hang on: a curve through them
+    would be a wiry hook.
+    """
+    cosine = np.einsum("nsi,nsi->ns", tangent[:, 1:], tangent[:, :-1])
+    return smoothstep(cosine, np.cos(_KINK[1]), np.cos(_KINK[0]))
 
 
 def _along_lifelines(strays: Strays, positions: Floats, directions: Floats) -> Floats:
