@@ -15,10 +15,9 @@ from scipy.spatial import cKDTree
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
-from ..head.smooth import smoothstep
 from ..lcp.model import HairModel
 from ..scene.stage import HairOnStage
-from .strays import StrayFinder, Strays
+from .strays import StrayFinder, Strays, goes_round
 
 SECTIONS = 5
 """Places on the curve: as many towards the root as towards the tip, and the particle itself."""
@@ -28,8 +27,6 @@ _NEIGHBOURS_ASKED = 24
 # Arc lengths [m] between which hair fades in: ribbons start softly, and a few millimetres beside their own root.
 _LEAVES_SCALP = (-0.002, 0.014)
 _ENDS = 0.03  # before its end hair begins to thin out [m]
-# Hair that would turn from section to section by the first angle begins to go, by the second it has gone [rad].
-_KINK = (np.radians(25), np.radians(50))
 # Hair that strays is a narrower lock by this part, and begins this far [m] before the particle it comes from.
 _THINNER = 0.5
 _EARLIER = 0.015
@@ -100,8 +97,10 @@ class CurveBuilder:
         from_scalp = self.model.arc_length[:, None] + half_length * along
         grown = np.clip((from_scalp - _LEAVES_SCALP[0]) / (_LEAVES_SCALP[1] - _LEAVES_SCALP[0]), 0.0, 1.0)
         grown *= 1.0 - strays.lost[:, None]
-        straight = np.cumprod(_goes_round(tangent), axis=1)
-        # It has gone where the kink begins.
+        # A few particles in a hundred, at the loose ends of the hair, come to lie behind what they hang on: a curve through
+        # them would be a wiry hook. It has gone where the kink begins.
+        turns = np.einsum("nsi,nsi->ns", tangent[:, 1:], tangent[:, :-1])
+        straight = np.cumprod(goes_round(turns), axis=1)
         grown *= np.concatenate([straight, straight[:, -1:]], axis=1)
         sideways = self._sideways(combed) @ turn
         sideways[strays.which] *= 1.0 - _THINNER * strays.astray[:, None]
@@ -181,16 +180,6 @@ def _at(directions: list[Floats], hops: Floats) -> Floats:
     first, second = weights
     third = 1 - first - second
     return unit(first[:, None] * directions[0] + second[:, None] * directions[1] + third[:, None] * directions[2])
-
-
-def _goes_round(tangent: Floats) -> Floats:
-    """From 1 where hair goes on from section to section to 0 where it would have to turn on the spot, (n, SECTIONS - 1).
-
-    A few particles in a hundred, at the loose ends of the hair, come to lie behind what they hang on: a curve through them
-    would be a wiry hook.
-    """
-    cosine = np.einsum("nsi,nsi->ns", tangent[:, 1:], tangent[:, :-1])
-    return smoothstep(cosine, np.cos(_KINK[1]), np.cos(_KINK[0]))
 
 
 def _along_lifelines(strays: Strays, positions: Floats, directions: Floats) -> Floats:

@@ -21,9 +21,11 @@ _STRAYS = (0.014, 0.034)
 """A particle begins to count as astray when the particle it hangs on, and the middle of all its rootward neighbours, lie
 so far [m] off the course of its hair, and does so altogether at the second."""
 
-_AHEAD = (0.3, 0.85)
 _LONGEST = (0.045, 0.085)
-"""Hair that would have to turn much to get to the particle (cosine), or come from so far [m], is not drawn."""
+"""Hair that would have to come to the particle from so far [m], or by a kink, is not drawn."""
+
+KINK = (np.radians(35), np.radians(55))
+"""Hair that would have to turn on the spot by the first angle begins to go, by the second it has gone [rad]."""
 
 _GENERATIONS = 4
 """How many particles may hang one on the other, and be lost with the first."""
@@ -67,10 +69,15 @@ class StrayFinder:
         length = np.sqrt(np.einsum("mi,mi->m", way[out], way[out]))
         ahead = np.einsum("mi,mi->m", way[out], course[out]) / np.maximum(length, 1e-12)
         lost = np.zeros(len(positions))
-        lost[held[out]] = astray[out] * (1 - smoothstep(ahead, *_AHEAD) * (1 - smoothstep(length, *_LONGEST)))
+        lost[held[out]] = astray[out] * (1 - goes_round(ahead) * (1 - smoothstep(length, *_LONGEST)))
         for _ in range(_GENERATIONS):
             lost = np.maximum(lost, smoothstep(self._rootward_mean @ lost, 0.5, 1.0))
         return Strays(held[out], astray[out], positions[holds[out]], directions[holds[out]], lost)
+
+
+def goes_round(cosine: Floats) -> Floats:
+    """From 1 where hair goes on to 0 where it would have to turn on the spot, of the shape of the ``cosine`` of its turns."""
+    return smoothstep(cosine, np.cos(KINK[1]), np.cos(KINK[0]))
 
 
 def _off(way: Floats, course: Floats) -> Floats:
