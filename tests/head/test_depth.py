@@ -86,3 +86,19 @@ def test_a_point_off_a_sharp_edge_is_outside():
     x, y, z = points.T
     outside = points[(z < 0) | (np.hypot(x, y) > 0.02 * (1 - z / 0.1))]
     assert SkinDepth(head_of(cone)).deepest(outside, REST) == 0.0
+
+
+def test_noise_that_folds_the_skin_puts_nobody_inside():
+    """A scan with noise as large as its triangles: where they are turned over they look inward."""
+    rng = np.random.default_rng(5)
+    ball = trimesh.creation.icosphere(subdivisions=4, radius=0.1)
+    ball.vertices += rng.normal(0.0, 0.004, ball.vertices.shape)
+    depth = SkinDepth(head_of(ball))
+    out = rng.normal(size=(3000, 3))
+    out /= np.linalg.norm(out, axis=1, keepdims=True)
+    outside = rng.uniform(0.12, 0.16, (3000, 1)) * out
+    looks_inward = np.einsum("ij,ij->i", ball.face_normals, ball.triangles_center) < 0
+    assert looks_inward.mean() > 0.03
+    assert depth.deepest(outside, REST) == 0.0
+    outside[5] *= 0.05 / np.linalg.norm(outside[5])
+    assert depth.deepest(outside, REST) == pytest.approx(0.05, abs=0.015)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .frame import HeadFrame
+from .hair_tight import standing_on_floor
 from .head import Head
 from .locate import Locator
 from .mesh import Floats, Ints, TriangleMesh
@@ -22,6 +23,9 @@ class SkinDepth:
 
     def __init__(self, head: Head) -> None:
         skin, weight = head.skin, head.head_weight
+        solid, self._bends = standing_on_floor(head), head.neck
+        self._body = igl.FastWindingNumberBVH()
+        self._body.init(solid.vertices, solid.faces)
         on_border = np.zeros(len(skin.vertices), dtype=bool)
         on_border[igl.boundary_facets(skin.faces)[0].ravel()] = True
         turns, stays = weight[skin.faces].min(axis=1) == 1.0, weight[skin.faces].max(axis=1) == 0.0
@@ -40,7 +44,8 @@ class SkinDepth:
     def signed_distance(self, points: Floats, frame: HeadFrame) -> Floats:
         """Distance to the skin [m], negative below it, (n,). points: in the head frame [m], (n, 3).
 
-        Past the skin's border nothing is below it.
+        Past the skin's border nothing is below it. The skin of a scan may be folded over itself, and look inward where it does:
+        what is below it has to be inside the body as well.
         """
         seen, turn = frame.rotation.apply(points), frame.rotation.as_rotvec()
         bent = self._neck.moved(turned_by(self._neck.vertices, turn, self._neck_weight))
@@ -48,7 +53,16 @@ class SkinDepth:
         pieces = ((self._head, points), (self._torso, seen), (neck, seen))
         signed = np.stack([piece.signed_distance(places) for piece, places in pieces])
         nearest = np.abs(signed).argmin(axis=0)
-        return np.take_along_axis(signed, nearest[None], axis=0)[0]
+        signed = np.take_along_axis(signed, nearest[None], axis=0)[0]
+        below = np.flatnonzero(signed < 0.0)
+        signed[below[~self._encloses(seen[below], turn)]] *= -1.0
+        return signed
+
+    def _encloses(self, seen: Floats, turn: Floats) -> NDArray[np.bool_]:
+        """Whether the body winds around points in the axes of the torso [m], (n, 3), led back to where they are at rest."""
+        shares = self._bends.shares_when_bent(seen, turn)
+        rest = np.concatenate([turned_by(seen, turn, -share) for share in shares])
+        return (self._body.winding_number(rest).reshape(2, -1) > 0.5).any(axis=0)
 
 
 class _Piece:
