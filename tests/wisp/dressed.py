@@ -49,7 +49,9 @@ def styled(outlines: Outlines, name: str = "mannequin", **settings: object):
 
 def plain_styling(**settings: object) -> StylingSettings:
     """``settings`` over gravity alone: hair that nobody has parted or taken off the face."""
-    return StylingSettings(**{"parted": 0.0, "parting": 0.0, "off_face": 0.0, "off_shoulders": 0.0, **settings})
+    return StylingSettings(
+        **{"parted": 0.0, "parting": 0.0, "off_face": 0.0, "close": 0.0, "off_shoulders": 0.0, **settings}
+    )
 
 
 def weight(name: str = "mannequin") -> ForceField:

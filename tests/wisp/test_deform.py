@@ -39,6 +39,18 @@ def test_a_smaller_threshold_makes_more_volume(rest):
     assert np.all(np.diff([ConvexHull(outlines.joints.reshape(-1, 3)).volume for outlines in laid]) > 0)
 
 
+def test_short_segments_make_way_little_by_little():
+    """Each would else leap aside by as much as a long one, and hair would stand out as tufts."""
+    _, scalp, surroundings = body()
+    laid, _ = styled(hair(scalp, segment=0.005), density_threshold=0.02)
+    free = surroundings.distance_and_gradient_anywhere(laid.joints[:, 1:-1].reshape(-1, 3))[0] > 0.03
+    turns = np.einsum("wjk,wjk->wj", laid.directions[:, 1:], laid.directions[:, :-1]).ravel()[free]
+    assert len(turns) > 1000
+    # Six bends of a quarter of 12 degrees, and what the force itself turns.
+    assert np.degrees(np.arccos(turns.min())) < 40
+    assert np.degrees(np.arccos(np.quantile(turns, 0.02))) > 12
+
+
 @pytest.mark.parametrize("force", [{}, {"back": 2.0}, {"gravity": 0.0, "right": 3.0}, {"density_threshold": 0.05}])
 def test_no_joint_is_below_the_skin(rest, force):
     head, _, _ = body()

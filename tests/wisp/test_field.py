@@ -131,6 +131,20 @@ def test_hair_that_hangs_beside_the_back_lies_down_on_it():
     assert np.all(np.einsum("ij,ij->i", change, surroundings.gradient(np.array(onto))) < -0.1)
 
 
+def test_hair_beside_the_head_is_drawn_to_it_and_what_lies_over_an_ear_is_not():
+    _, _, surroundings = body()
+    beside = np.array([[side, -0.7, 0.8] for side in (-1.3, 1.3)])
+    over = np.array([[side, -0.3, -0.1] for side in (-1.5, 1.5)])
+    change = [field_at(places, close=1.0) - field_at(places) for places in (beside, over)]
+    outward = surroundings.gradient(surroundings.proportions.place(beside))
+    assert np.all(np.einsum("ij,ij->i", change[0], outward) < -0.3)
+    assert np.abs(change[0][:, 1]).max() < 1e-6
+    assert np.abs(change[1]).max() < 1e-6
+    # Nor is it on top of the head, or far off.
+    for place in ([0.0, 1.1, 0.0], [3.5, -0.5, 0.0]):
+        assert field_at([place], close=1.0) == pytest.approx(field_at([place]))
+
+
 def test_what_is_combed_forward_begins_at_the_whorl_and_is_pressed_to_the_brow():
     behind, above, before = (
         field_at([place], gravity=0.0, forward=1.0)[0] for place in ((0, 0.6, -0.9), (0, 1, 0), (0, 0.1, 1.1))

@@ -67,13 +67,13 @@ def test_at_a_temperature_of_zero_the_choice_is_the_nearest():
 
 
 def test_a_warm_choice_has_the_probabilities_of_eq_4():
-    """A prototype of two kinds of windows, at distances 0 and d from where the chain is."""
+    """A prototype of two kinds of windows, at distances 0 and d in one of three coordinates from where the chain is."""
     samples = np.zeros((4, 3))
     samples[[1, 2], 0] = 0.9, 1.0
     starts = np.ones(20_000, dtype=np.int64)
     # After 0 come 0.9 (from the window 0), 1.0 (0.9) and 0 (1.0): the distances are 0, 0.9 and 1.
     next_ = synthesise(samples, 1, 0.5, starts, 1, np.random.default_rng(1))[:, 0, 0]
-    weight = np.exp(-np.array([0.0, 0.9, 1.0]) / 0.5)
+    weight = np.exp(-np.array([0.0, 0.9, 1.0]) / np.sqrt(3) / 0.5)
     share = [np.mean(np.isclose(next_, value)) for value in (0.9, 1.0, 0.0)]
     np.testing.assert_allclose(share, weight / weight.sum(), atol=0.01)
 

@@ -66,7 +66,8 @@ class Deformer:
 
         def let_down() -> tuple[Flow, list[QueueReport]]:
             density = DensityField.empty(surroundings, scalp.area, int(outlines.strands.sum()))
-            flow = Flow(outlines, density, Layers.over(scalp, surroundings), force, styling.bending_stiffness, tau)
+            layers = Layers.over(scalp, surroundings)
+            flow = Flow(outlines, density, layers, force, styling.bending_stiffness, tau, styling.unevenness)
             if not in_vain:
                 _let_down(flow, uv, tau)
             return flow, []

@@ -12,6 +12,8 @@ from ..head.smooth import smoothstep
 _BESIDE = (0.55, 0.8)
 _HEIGHT = (-1.0, -0.7, -0.05, 0.15)
 _DEPTH = (-0.25, -0.05, 0.3, 0.55)
+# Where it is between them.
+_RISES, _FROM_BEHIND = (-0.9, -0.6, 0.2, 0.5), (-0.7, -0.4, 0.15, 0.4)
 
 
 # Where hair may lie on an ear, in proportions of the head.
@@ -33,6 +35,11 @@ def before_ears(places: Floats) -> Floats:
     """How much an ear is in the way of hair that goes back from ``places``, in proportions, (k, 3): 0 to 1, (k,)."""
     beside = smoothstep(np.abs(places[:, 0]), *_BESIDE)
     return beside * _window(places[:, 1], *_HEIGHT) * _window(places[:, 2], *_DEPTH)
+
+
+def over_ears(places: Floats) -> Floats:
+    """How much an ear is between the head and ``places``, in proportions, (k, 3): 0 to 1, (k,)."""
+    return _window(places[:, 1], *_RISES) * _window(places[:, 2], *_FROM_BEHIND)
 
 
 def _window(value: Floats, low: float, from_: float, to: float, high: float) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 from ..head.mesh import Floats
 from ..head.rows import row_unit
 from ..head.smooth import smoothstep
-from .ears import before_ears
+from .ears import before_ears, over_ears
 from .force import ForceField
 from .grid import Grid
 from .strokes import follow_strokes
@@ -33,6 +33,8 @@ def force_field(styling: StylingSettings, surroundings: Surroundings) -> ForceFi
             total += weight * preset(places, styling)
     if styling.off_shoulders:
         total += styling.off_shoulders * _off_shoulders(places, grid, surroundings)
+    if styling.close:
+        total += styling.close * _close(places, grid, surroundings)
     if styling.strokes:
         total = follow_strokes(total, grid, styling.strokes, surroundings.proportions, styling.stroke_reach)
     return ForceField(grid, np.ascontiguousarray(total.T, dtype=np.float32))
@@ -165,6 +167,22 @@ def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Fl
     beside = (1.0 - _fade(off, *_OFF_BODY[:2])) * _fade(off, *_OFF_BODY[2:]) * _fade(places[:, 1], *_BELOW)
     leans = _LEANS * beside * (1.0 - upward**2) * outward
     return _fade(off, *_LYING) * _fade(places[:, 1], *_LOW) * carried - leans
+
+
+# Hair that hangs beside the head is drawn to it between these heights, in half heights of the head, the more the farther off
+# the skin it hangs, and from nowhere else [m].
+_HANGS, _CLOSES = (-1.6, -1.1, 0.2, 0.9), (0.004, 0.03, 0.08, 0.14)
+
+
+def _close(places: Floats, grid: Grid, surroundings: Surroundings) -> Floats:
+    """Hair clings to the hair below it, and so to temple, cheek and neck, and does not hang plumb from where the head is
+    widest. What lies over an ear stays there.
+    """
+    off, outward = surroundings.distance_and_gradient_anywhere(grid.nodes)
+    level = outward * np.array([1.0, 0.0, 1.0])
+    beside = (1.0 - _fade(places[:, 1], *_HANGS[:2])) * _fade(places[:, 1], *_HANGS[2:])
+    beside *= 1.0 - over_ears(places)[:, None]
+    return -beside * (1.0 - _fade(off, *_CLOSES[:2])) * _fade(off, *_CLOSES[2:]) * level
 
 
 PRESETS: dict[str, Callable[[Floats, StylingSettings], Floats]] = {

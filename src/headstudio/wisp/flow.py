@@ -17,12 +17,12 @@ from .columns import cross, dot, unit
 from .density import DensityField
 from .ears import at_ears
 from .force import ForceField
-from .joints import bend_toward, joint_stiffness, most_aligned, turn
+from .joints import REFERENCE_SEGMENT, bend_toward, joint_stiffness, most_aligned, turn
 from .layers import Layers
 from .outlines import Outlines
 
-_BEND = math.radians(12)  # Delta theta of Algorithm 1
-_BENDS = 4  # so many before the least dense direction is taken
+_BEND = math.radians(12)  # Delta theta of Algorithm 1, for a segment of 2 cm and longer ones
+_BENDS = 6  # so many before the least dense direction is taken
 _SLIDES = 2  # corrections of a segment that would run into the head
 _SLACK = 1e-4  # so near to its clearance it needs no further correction [m]
 
@@ -61,16 +61,20 @@ class Flow:
         force: ForceField,
         kappa: float,
         tau: float,
+        unevenness: float = 0.0,
     ) -> None:
         count, joints = outlines.frames.shape[:2]
         self.outlines = outlines
         self.laid = np.zeros(count, dtype=np.int64)
         self.tally = Tally()
         self.stiffness = joint_stiffness(kappa, outlines.segment)
+        # Of short segments many make way one after the other: each would else leap aside, and stand out as a tuft.
+        self._bend = _BEND * min(outlines.segment / REFERENCE_SEGMENT, 1.0)
         self._density = density
         self._layers = layers
         self._force = force
         self._tau = tau
+        self._unevenness = unevenness
         self._widest: Floats = np.full(outlines.radii.shape, np.inf)
         self._amounts = (outlines.strands * outlines.segment).astype(np.float64)
         # By joint and wisp, in one row: what the j-th joint of wisp w has is in place j W + w.
@@ -123,11 +127,18 @@ class Flow:
         )
 
     def styling_force(self, wisps: Ints) -> Floats:
-        """Phi at the ends of ``wisps``, (k, 3); beside a parting, as it is well on their side of it."""
+        """Phi at the ends of ``wisps``, (k, 3); beside a parting, as it is well on their side of it. Each strays from it a
+        little in its own way.
+        """
         felt = self._ends.take(wisps, axis=1).T
         if self.outlines.aside is not None:
             felt += self.outlines.aside.take(wisps, axis=0)
-        return self._force.at(felt).astype(np.float64)
+        force = self._force.at(felt).astype(np.float64)
+        if self.outlines.stray is not None and self._unevenness > 0:
+            way = np.float64(self.outlines.segment) * self.laid[wisps]
+            size = self._unevenness * np.sqrt(np.einsum("ij,ij->i", force, force))
+            force += (size * self.outlines.stray.at(wisps, way)).T
+        return force
 
     def lay(self, wisps: Ints, force: Floats, ceiling: Floats) -> None:
         """Add one segment to each of ``wisps``, (k,), under ``force``, (k, 3); it collides above ``ceiling``, (k,)."""
@@ -255,7 +266,7 @@ class Flow:
         for _ in range(_BENDS):
             start_here, clear = start[:, colliding], clearance[colliding]
             away = unit(-slope.T.astype(np.float64), otherwise=bent)
-            bent = self._slide(start_here, bend_toward(bent, away, _BEND), clear)
+            bent = self._slide(start_here, bend_toward(bent, away, self._bend), clear)
             here, slope = self._density.at((start_here + half * bent).T)
             better = here < least
             least = np.where(better, here, least)

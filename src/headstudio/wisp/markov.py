@@ -64,9 +64,9 @@ def synthesise(
     ``temperature`` of 0. A strand begins as if it had followed the prototype up to the detail ``starts``, (W,), of
     window to m - 1.
 
-    Distances are divided by the amplitude of the prototype and the root of the window, so that one temperature means the
-    same likeness for every prototype: it is the root mean square difference, as a part of the amplitude, at which a
-    window is e times less likely.
+    Distances are divided by the amplitude of the prototype and the root of how many coordinates a window has, so that one
+    temperature means the same likeness for every prototype: it is the root mean square difference of a coordinate, as a part
+    of the amplitude, at which a window is e times less likely.
     """
     size = amplitude(prototype)
     strands = np.empty((len(starts), window + count, 3), dtype=np.float32)
@@ -74,11 +74,12 @@ def synthesise(
         strands[:] = 0
         return strands[:, window:]
     scaled = (prototype / size).astype(np.float32)
+    unit = np.float32(np.sqrt(3 * window))
     # The last window of the prototype has nothing after it.
-    candidates = _windows(scaled, window)[:-1] / np.float32(np.sqrt(window))
+    candidates = _windows(scaled, window)[:-1] / unit
     strands[:, :window] = scaled[starts[:, None] + np.arange(-window, 0)]
     for i in range(count):
-        recent = strands[:, i : i + window].reshape(len(starts), -1) / np.float32(np.sqrt(window))
+        recent = strands[:, i : i + window].reshape(len(starts), -1) / unit
         # A column for every strand: what goes on along a column goes on for all strands at once.
         squared = _squared_distances(candidates, recent)
         chosen = _gibbs(np.sqrt(squared), temperature, rng) if temperature > 0 else squared.argmin(axis=0)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..head.mesh import Floats
+from .stray import Stray
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +22,7 @@ class Outlines:
     segment, (W, J, 3, 3): its columns are two directions across and the direction along the segment, in the head frame.
     radii: deviation radius r at every joint [m], (W, J + 1). strands: how many strands each wisp stands for, (W,).
     aside: how far from its end a wisp feels the styling force [m], (W, 3), None for nobody; see ``Parting.aside``.
+    stray: how wisps stray from the way that all go, None for not at all.
     """
 
     roots: Floats
@@ -30,6 +32,7 @@ class Outlines:
     radii: Floats
     strands: NDArray[np.int64]
     aside: Floats | None = None
+    stray: Stray | None = None
 
     @property
     def directions(self) -> Floats:

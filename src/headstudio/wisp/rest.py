@@ -15,6 +15,7 @@ from .maps import length_map, protrusion_map
 from .outlines import Outlines
 from .parting import Parting, unit
 from .settings import WispSettings
+from .stray import Stray
 
 # No master strand is shorter [m]: stubble.
 SHORTEST = 0.0005
@@ -45,6 +46,7 @@ def rest_outlines(
         radii=radii,
         strands=np.rint(settings.strands * regions.share).astype(np.int64),
         aside=None if parting is None else parting.aside(regions.roots),
+        stray=Stray.over(regions.roots, settings.seed),
     )
     return outlines, length
 

@@ -105,7 +105,7 @@ class WispSettings:
         0.02, "Straight roots", "m", 0.0, 0.3, "How far from the scalp curls have reached their size.", shown="cm"
     )
     temperature: float = number(
-        0.03,
+        0.02,
         "Temperature",
         "",
         0.0,

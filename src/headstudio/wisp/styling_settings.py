@@ -70,10 +70,21 @@ class StylingSettings:
     )
     off_face: float = _weight(1.6, "Off the face", "Weight of the push from the face to the sides.")
     inward: float = _weight(0.0, "Inward", "Weight of the pull toward the neck, which turns the tips of a bob in.")
+    close: float = _weight(
+        0.4, "Close to the face", "Weight with which hair that hangs is drawn to temple, cheek and neck."
+    )
     off_shoulders: float = _weight(
         1.0,
         "Off the shoulders",
         "Weight with which shoulders carry hair, and lead it over the breast or down the back.",
+    )
+    unevenness: float = number(
+        0.15,
+        "Unevenness",
+        "",
+        0.0,
+        1.0,
+        "How far locks stray from the way that all hair goes, as a part of the force on it.",
     )
     stroke_reach: float = number(
         0.06, "Stroke reach", "m", 0.01, 0.3, "How far around a drawn stroke hair still follows it.", shown="cm"

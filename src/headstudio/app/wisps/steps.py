@@ -33,7 +33,9 @@ _FIELD = (
     "parting",
     "off_face",
     "inward",
+    "close",
     "off_shoulders",
+    "unevenness",
     "stroke_reach",
 )
 _DEFORMATION = ("bending_stiffness", "density_threshold")
