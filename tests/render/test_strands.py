@@ -143,6 +143,21 @@ def test_hair_that_would_turn_on_the_spot_ends_before_it_does() -> None:
     assert (np.abs(np.diff(shown, axis=0)) < 0.35).all()
 
 
+def test_a_lock_that_winds_goes_as_a_whole() -> None:
+    """The lock to a particle that strays runs aside and back: what is left of it would lie across the hair."""
+    wound = []
+    for gap in (8, 9, 10, 11, 12):
+        curves = curves_of(hung(hanging_hair(0.03), 13, gap), half_length=0.02)
+        turns = np.einsum("si,si->s", curves.tangent[13, 1:], curves.tangent[13, :-1])
+        total = np.degrees(np.arccos(np.clip(turns, -1, 1)).sum())
+        if total > 85:
+            wound.append(gap)
+            assert (curves.grown[13] < 0.5).all()
+        if total < 60:
+            assert (curves.grown[13, 1:] > 0.8).all()
+    assert wound and len(wound) < 5
+
+
 def test_a_curve_reaches_the_hair_that_it_comes_from() -> None:
     arc = np.array([-0.01, 0.0, 0.01, 0.02, 0.08, 0.09])
     down = np.array([0.0, -1.0, 0.0])

@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 
 from ..head.frame import HeadFrame
 from ..head.mesh import Floats, Ints
+from ..head.smooth import smoothstep
 from ..lcp.model import HairModel
 from ..scene.stage import HairOnStage
 from .strays import StrayFinder, Strays, goes_round
@@ -27,6 +28,8 @@ _NEIGHBOURS_ASKED = 24
 # Arc lengths [m] between which hair fades in: ribbons start softly, and a few millimetres beside their own root.
 _LEAVES_SCALP = (-0.002, 0.014)
 _ENDS = 0.03  # before its end hair begins to thin out [m]
+# A curve that winds, to and fro, by the first angle in all begins to go, by the second it has gone [rad].
+_WINDING = (np.radians(70), np.radians(100))
 # Hair that strays is a narrower lock by this part, and begins this far [m] before the particle it comes from.
 _THINNER = 0.5
 _EARLIER = 0.015
@@ -100,7 +103,10 @@ class CurveBuilder:
         # A few particles in a hundred, at the loose ends of the hair, come to lie behind what they hang on: a curve through
         # them would be a wiry hook. It has gone where the kink begins.
         turns = np.einsum("nsi,nsi->ns", tangent[:, 1:], tangent[:, :-1])
-        straight = np.cumprod(goes_round(turns), axis=1)
+        wound = np.cumsum(np.arccos(np.clip(turns, -1.0, 1.0)), axis=1)
+        straight = np.cumprod(goes_round(turns), axis=1) * (1.0 - smoothstep(wound, *_WINDING))
+        # A lock that strays from the hair goes as a whole: nothing would be left of it but a piece that lies across the hair.
+        straight[strays.which] += strays.astray[:, None] * (straight[strays.which, -1:] - straight[strays.which])
         grown *= np.concatenate([straight, straight[:, -1:]], axis=1)
         sideways = self._sideways(combed) @ turn
         sideways[strays.which] *= 1.0 - _THINNER * strays.astray[:, None]
