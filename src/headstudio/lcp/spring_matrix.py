@@ -2,6 +2,7 @@
 
 The pattern of the links never changes, so where each number goes is worked out once. A link adds the same symmetric
 3 x 3 block, six different numbers, to the diagonal at both of its ends and takes it from the two places that couple them.
+Bending that is too stiff for an explicit step adds the same numbers all the time.
 
 What holds single particles only adds to their own blocks.
 """
@@ -28,8 +29,7 @@ _SIX_OF_NINE = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
 class SpringMatrix:
     """M + g D + g^2 K of the free particles, and conjugate gradients on it.
 
-    K and D are those of the springs, and of bending where it is too stiff for an explicit step: the product of two matrices,
-    which is never worked out.
+    K and D are those of the springs, and of bending where it is too stiff for an explicit step.
     """
 
     def __init__(self, model: HairModel, springs: Springs) -> None:
@@ -48,14 +48,8 @@ class SpringMatrix:
         # All x, then all y, then all z: what is done to every block is done to long rows.
         entry_rows = (rows[:, None] + count * np.repeat(np.arange(3), 3)).ravel()
         entry_columns = (columns[:, None] + count * np.tile(np.arange(3), 3)).ravel()
-        source = (_SIX_OF_NINE * (links + count) + block[:, None]).ravel()
-        # Numbering the entries and letting scipy sort them tells where each one goes.
-        numbered = sparse.csr_array((np.arange(len(source)), (entry_rows, entry_columns)), shape=(3 * count, 3 * count))
-        numbered.sort_indices()
-        self._source = source[numbered.data]
-        # Products with indices of 64 bits are the faster ones.
-        indices, begins = numbered.indices.astype(np.int64), numbered.indptr.astype(np.int64)
-        self._matrix = sparse.csr_array((np.zeros(len(source)), indices, begins), shape=numbered.shape)
+        self._entries = entry_rows, entry_columns
+        self._number_of_entry = (_SIX_OF_NINE * (links + count) + block[:, None]).ravel()
         self._six = np.zeros((6, links + count))
         self._inverse = np.zeros((3, 3, count))
         self.stiffen(StiffTurning(sparse.csr_array((0, model.count)), np.zeros(0)), 0.0)
@@ -64,8 +58,26 @@ class SpringMatrix:
         """Add T^T R T for bending, which is alike in all directions, with g of the implicit step [s]. Before ``update``."""
         turn, rigidity = bending.turn[:, self._free], bending.damped(g)
         self._bending_diagonal = turn.power(2).T @ rigidity
-        self._turn = sparse.block_diag([turn] * 3, format="csr")
-        self._turn_back = (self._turn.T @ sparse.diags_array(np.tile(rigidity, 3))).tocsr()
+        added = sparse.block_diag([turn.T @ sparse.diags_array(rigidity) @ turn] * 3, format="coo")
+        rows, columns = (np.concatenate(both) for both in zip(self._entries, added.coords, strict=True))
+
+        def sorted_in(of_entries: Floats, of_added: Floats) -> sparse.csr_array:
+            shape = 2 * (3 * len(self._free),)
+            matrix = sparse.csr_array((np.concatenate([of_entries, of_added]), (rows, columns)), shape=shape)
+            matrix.sort_indices()
+            return matrix
+
+        # Numbering the entries and letting scipy sort them tells where each one goes; those that are only added have none.
+        numbers = np.arange(1.0, len(self._number_of_entry) + 1.0)
+        numbered = sorted_in(numbers, np.zeros(added.nnz))
+        of_bending = sorted_in(np.zeros(len(numbers)), added.data).data
+        entry = numbered.data.astype(np.int64) - 1
+        self._source = self._number_of_entry[np.maximum(entry, 0)]
+        self._bent = np.flatnonzero((of_bending != 0.0) | (entry < 0))
+        self._of_bending, self._shared = of_bending[self._bent], np.where(entry[self._bent] < 0, 0.0, 1.0)
+        # Products with indices of 64 bits are the faster ones.
+        indices, begins = numbered.indices.astype(np.int64), numbered.indptr.astype(np.int64)
+        self._matrix = sparse.csr_array((np.zeros(len(indices)), indices, begins), shape=numbered.shape)
 
     def update(self, links: LinkState, load: Load, holds: Iterable[Hold], g: float, inertia: Floats) -> None:
         """Fill the matrix for the links and holds at one instant. inertia: what else the diagonal has [kg], (n,)."""
@@ -86,7 +98,9 @@ class SpringMatrix:
         for hold in holds:
             _add(of_diagonal, self._place[hold.which], hold, g)
         of_links *= -1.0
-        self._matrix.data = self._six.ravel().take(self._source)
+        entries = self._six.ravel().take(self._source)
+        entries[self._bent] = entries[self._bent] * self._shared + self._of_bending
+        self._matrix.data = entries
         block = of_diagonal.copy()
         block[[0, 3, 5]] += self._bending_diagonal
         _invert_symmetric(block, self._inverse)
@@ -98,7 +112,7 @@ class SpringMatrix:
         """
         inverse = self._inverse
         wanted, solution = (rows_at(vectors, self._free).ravel(order="F") for vectors in (right, guess))
-        residual = wanted - self._of(solution)
+        residual = wanted - self._matrix @ solution
         z = _times(inverse, residual)
         direction = z.copy()
         rho = residual @ z
@@ -108,7 +122,7 @@ class SpringMatrix:
         goal = tolerance**2 * (wanted @ _times(inverse, wanted))
         taken = 0
         while rho > goal and taken < _MOST_ITERATIONS:
-            image = self._of(direction)
+            image = self._matrix @ direction
             step = rho / (direction @ image)
             solution += step * direction
             residual -= step * image
@@ -118,13 +132,6 @@ class SpringMatrix:
             direction += z
             taken += 1
         return self._at_all(solution)
-
-    def _of(self, vectors: Floats) -> Floats:
-        """The matrix times vectors, all x first, then all y, then all z."""
-        product: Floats = self._matrix @ vectors
-        if self._turn.shape[0]:
-            product += self._turn_back @ (self._turn @ vectors)
-        return product
 
     def _at_all(self, of_free: Floats) -> Floats:
         at_all = np.zeros((len(self._place), 3), order="F")
