@@ -5,6 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
+from headstudio.lcp import spring_matrix
 from headstudio.lcp.bending import Bending
 from headstudio.lcp.hold import Hold
 from headstudio.lcp.settings import DynamicsSettings
@@ -80,8 +81,10 @@ def test_the_matrix_takes_a_hold_by_its_own_derivative(seed):
     np.testing.assert_allclose(added, wanted[1:, :, 1:], atol=1e-5 * wanted.max())
 
 
-def test_stiff_bending_is_in_the_matrix_by_its_own_derivative():
+@pytest.mark.parametrize("two_products", [10_000, -10_000], ids=["worked out", "two products"])
+def test_stiff_bending_is_in_the_matrix_by_its_own_derivative(monkeypatch, two_products):
     """What T^T R T adds is what the force of bending loses for a velocity to come."""
+    monkeypatch.setattr(spring_matrix, "_TWO_PRODUCTS", two_products)
     chain, settings = Matrix(8), DynamicsSettings(stiffness=10.0)
     model, bending = chain.model, Bending(chain.model)
     stiff = bending.too_stiff(settings, 1.0)

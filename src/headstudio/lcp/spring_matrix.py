@@ -2,7 +2,8 @@
 
 The pattern of the links never changes, so where each number goes is worked out once. A link adds the same symmetric
 3 x 3 block, six different numbers, to the diagonal at both of its ends and takes it from the two places that couple them.
-Bending that is too stiff for an explicit step adds the same numbers all the time.
+Bending that is too stiff for an explicit step adds the same numbers all the time, where they are few; those of much
+stiff hair are not worked out, but left as the product of two matrices.
 
 What holds single particles only adds to their own blocks.
 """
@@ -22,6 +23,8 @@ from .model import HairModel
 from .springs import LinkState, Load, Springs
 
 _MOST_ITERATIONS = 60
+# What two products more cost beside their entries: as much as so many entries of one along x, y and z.
+_TWO_PRODUCTS = 7000
 # The places of a symmetric 3 x 3 block, row by row, among its six numbers xx, xy, xz, yy, yz, zz.
 _SIX_OF_NINE = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
 
@@ -58,7 +61,18 @@ class SpringMatrix:
         """Add T^T R T for bending, which is alike in all directions, with g of the implicit step [s]. Before ``update``."""
         turn, rigidity = bending.turn[:, self._free], bending.damped(g)
         self._bending_diagonal = turn.power(2).T @ rigidity
-        added = sparse.block_diag([turn.T @ sparse.diags_array(rigidity) @ turn] * 3, format="coo")
+        turn_back = turn.T @ sparse.diags_array(rigidity)
+        worked_out = turn_back @ turn
+        if worked_out.nnz <= 2 * turn.nnz + _TWO_PRODUCTS:
+            self._turns = ()
+            self._arrange(worked_out)
+        else:
+            self._turns = tuple(sparse.block_diag([part] * 3, format="csr") for part in (turn, turn_back))
+            self._arrange(sparse.csr_array(worked_out.shape))
+
+    def _arrange(self, bending: sparse.csr_array) -> None:
+        """Lay out the numbers of the blocks, and with them those of ``bending``, which are always the same."""
+        added = sparse.block_diag([bending] * 3, format="coo")
         rows, columns = (np.concatenate(both) for both in zip(self._entries, added.coords, strict=True))
 
         def sorted_in(of_entries: Floats, of_added: Floats) -> sparse.csr_array:
@@ -112,7 +126,7 @@ class SpringMatrix:
         """
         inverse = self._inverse
         wanted, solution = (rows_at(vectors, self._free).ravel(order="F") for vectors in (right, guess))
-        residual = wanted - self._matrix @ solution
+        residual = wanted - self._of(solution)
         z = _times(inverse, residual)
         direction = z.copy()
         rho = residual @ z
@@ -122,7 +136,7 @@ class SpringMatrix:
         goal = tolerance**2 * (wanted @ _times(inverse, wanted))
         taken = 0
         while rho > goal and taken < _MOST_ITERATIONS:
-            image = self._matrix @ direction
+            image = self._of(direction)
             step = rho / (direction @ image)
             solution += step * direction
             residual -= step * image
@@ -132,6 +146,14 @@ class SpringMatrix:
             direction += z
             taken += 1
         return self._at_all(solution)
+
+    def _of(self, vectors: Floats) -> Floats:
+        """The matrix times vectors, all x first, then all y, then all z."""
+        product: Floats = self._matrix @ vectors
+        if self._turns:
+            turn, turn_back = self._turns
+            product += turn_back @ (turn @ vectors)
+        return product
 
     def _at_all(self, of_free: Floats) -> Floats:
         at_all = np.zeros((len(self._place), 3), order="F")
