@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import math
 import sys
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from multiprocessing import get_context
 from pathlib import Path
 from unittest.mock import patch
 
@@ -26,8 +28,9 @@ from headstudio.wisp.strands import Strands
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
-def compare(context: moderngl.Context, path: Path) -> str:
+def compare(path: Path) -> str:
     """A row of the table for the scene in a JSON file, its pictures lying beside it."""
+    context = headless_context()
     stated, more = read_view(path), json.loads(path.read_text(encoding="utf-8"))
     arrays = np.load(more["strands"])
     strands = Strands(arrays["points"], np.concatenate([[0], np.cumsum(arrays["counts"])]))
@@ -76,8 +79,11 @@ def coverage(context: moderngl.Context, scene: strand_picture.StrandScene, view:
 
 
 if __name__ == "__main__":
-    graphics = headless_context()
-    for scene_file in sorted(Path(sys.argv[1]).glob("*.json")):
-        if len(sys.argv) == 2 or scene_file.stem in sys.argv[2:]:
-            sys.stdout.write(compare(graphics, scene_file) + "\n")
+    scene_files = [
+        path for path in sorted(Path(sys.argv[1]).glob("*.json")) if len(sys.argv) == 2 or path.stem in sys.argv[2:]
+    ]
+    # A process for each: one that draws scene after scene keeps some 200 MB of each.
+    with ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1) as processes:
+        for row in processes.map(compare, scene_files):
+            sys.stdout.write(row + "\n")
             sys.stdout.flush()

@@ -10,18 +10,17 @@ uniform vec4 far_rates;
 uniform float first_rate;       // one over how deep those lie that the first hair stands for
 uniform float cover;            // the part of a texel that a strand covers, in the mean
 uniform float opaque;           // by what the logarithm of light that strands let past falls with the count
+const float most_taken = 0.98;  // of the light, by one strand in the logarithm (render/deep_opacity.py)
 
 // What the four texels beside a place say, and how much each of them has to say.
 struct Crossed {
-    vec4 firsts;  // the first hair: met at once, but for those it stands for, which lie anywhere within its width
-    vec4 counts;  // with it all hair; what follows in its layer is met little by little
-    vec4 rates;   // how fast counts grow there with the depth, in units of the box
-    vec4 depths;  // behind the first hair
+    vec4 counts;
     vec4 shares;
 };
 
-// At one texel, which has a first hair of its own: first, count, rate and depth.
-vec4 crossed_at(ivec2 texel, float z, float own) {
+// At one texel, which has a first hair of its own. That is met at once, but for those it stands for, which lie anywhere within
+// its width; what follows in its layer is met little by little.
+float crossed_at(ivec2 texel, float z, float own) {
     float depth = z - texelFetch(front, texel, 0).r;
     vec4 near = texelFetch(near_counts, texel, 0), far = texelFetch(far_counts, texel, 0);
     float all_near = near.w;
@@ -33,40 +32,68 @@ vec4 crossed_at(ivec2 texel, float z, float own) {
     near = max(near - vec4(first, near.xyz) - own * near_here, 0.0);
     far = max(far - vec4(all_near, far.xyz) - own * far_here, 0.0);
     first *= clamp(depth * first_rate, 0.0, 1.0);
-    return vec4(first, first + dot(near, near_part) + dot(far, far_part),
-                dot(near, near_here * near_rates) + dot(far, far_here * far_rates), depth);
+    return first + dot(near, near_part) + dot(far, far_part);
 }
 
-// at: in the light's box, 0 to 1. own: what a strand at this very place has added to the count itself.
-Crossed crossed_beside(vec3 at, float own) {
-    Crossed crossed = Crossed(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.25));
-    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return crossed;
+// The texels beside a place in the light's box, 0 to 1: from the lower corner on, those with k % 2 and k / 2 more.
+struct Beside {
+    ivec2 low;
+    ivec2 last;
+    vec2 place;  // in texels, from the middle of the first
+};
+
+Beside texels_beside(vec2 at) {
     ivec2 last = textureSize(front, 0) - 1;
-    vec2 place = at.xy * vec2(last + 1) - 0.5;
-    ivec2 low = clamp(ivec2(floor(place)), ivec2(0), last);
-    vec2 part = clamp(place - vec2(low), 0.0, 1.0);
+    vec2 place = at * vec2(last + 1) - 0.5;
+    return Beside(clamp(ivec2(floor(place)), ivec2(0), last), last, place);
+}
+
+ivec2 texel_beside(Beside beside, int k) {
+    return min(beside.low + ivec2(k % 2, k / 2), beside.last);
+}
+
+// What a strand at a place has added to the counts of the four texels beside it (strands/opacity.vert draws it). along: its
+// direction in the light's box; half_width: as it is drawn into the map, in texels.
+vec4 own_counts(vec2 at, vec2 along, float half_width) {
+    Beside beside = texels_beside(at);
+    vec2 across = vec2(-along.y, along.x) / max(length(along), 1e-9);
+    float drawn = max(half_width, 0.5);
+    vec4 own;
     for (int k = 0; k < 4; ++k) {
-        bvec2 upper = bvec2(k % 2 == 1, k > 1);
-        vec2 share = mix(1.0 - part, part, upper);
-        vec4 found = crossed_at(min(low + ivec2(upper), last), at.z, own);
-        crossed.firsts[k] = found.x;
-        crossed.counts[k] = found.y;
-        crossed.rates[k] = found.z;
-        crossed.depths[k] = found.w;
+        vec2 aside = vec2(texel_beside(beside, k)) - beside.place;
+        own[k] = abs(dot(aside, across)) < drawn ? half_width / drawn : 0.0;
+    }
+    return own;
+}
+
+// at: in the light's box, 0 to 1. own: what a strand at this very place has added to the counts itself.
+Crossed crossed_beside(vec3 at, vec4 own) {
+    Crossed crossed = Crossed(vec4(0.0), vec4(0.25));
+    if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) return crossed;
+    Beside beside = texels_beside(at.xy);
+    vec2 part = clamp(beside.place - vec2(beside.low), 0.0, 1.0);
+    for (int k = 0; k < 4; ++k) {
+        vec2 share = mix(1.0 - part, part, bvec2(k % 2 == 1, k > 1));
+        crossed.counts[k] = crossed_at(texel_beside(beside, k), at.z, own[k]);
         crossed.shares[k] = share.x * share.y;
     }
     return crossed;
 }
 
+// By what the logarithm of light falls with the count where a strand takes the parts `lost` of it (render/deep_opacity.py).
+vec3 taken(vec3 lost) {
+    return -log(1.0 - min(cover * lost, most_taken)) / cover;
+}
+
 // The count in the mean.
 float hair_crossed(vec3 at) {
-    Crossed crossed = crossed_beside(at, 0.0);
+    Crossed crossed = crossed_beside(at, vec4(0.0));
     return dot(crossed.counts, crossed.shares);
 }
 
 // The part of straight light that comes past the strands. A strand is there or not: what comes through is worked out for each
 // texel, and not for the mean of their counts.
 float past_hair(vec3 at) {
-    Crossed crossed = crossed_beside(at, 0.0);
+    Crossed crossed = crossed_beside(at, vec4(0.0));
     return dot(crossed.shares, exp(-opaque * crossed.counts));
 }

@@ -1,8 +1,8 @@
 // How one hair scatters light, from the tables of render/fibre.py. Lobes: R, TT, TRT, TRRT and on.
 uniform sampler3D around_table;  // A times N over phi, sine of theta, coded absorption
 uniform sampler3D spread_table;  // the same for light from anywhere within a quarter turn
-uniform sampler2D albedo_table;  // forward and back over sine of theta, coded absorption
-uniform sampler2D bent_table;    // the same times cos(2 phi)
+uniform sampler2D back_table;    // what is turned back over sine of theta, coded absorption, by parts of the azimuth
+uniform sampler2D forward_table; // and what goes on
 uniform vec4 variances;
 uniform vec4 tilt_cos;
 uniform vec4 tilt_sin;
@@ -47,20 +47,33 @@ vec3 around_hair(sampler3D table, float phi, float sin_out, vec3 absorption, vec
                 dot(along, textureLod(table, vec3(at, texel_place(place.b, count)), 0.0)));
 }
 
-// Of the light at this inclination: what goes on forward, what comes back, and the same two times cos(phi).
-mat4x3 albedo(float sine, vec3 absorption) {
-    int count = textureSize(albedo_table, 0).y;
-    vec3 place = coded(absorption);
-    return transpose(mat3x4(textureLod(albedo_table, vec2(abs(sine), texel_place(place.r, count)), 0.0),
-                            textureLod(albedo_table, vec2(abs(sine), texel_place(place.g, count)), 0.0),
-                            textureLod(albedo_table, vec2(abs(sine), texel_place(place.b, count)), 0.0)));
+// Of the light at this inclination what a strand sends on, by the azimuth that it comes from: four parts of the quarter turn
+// from straight back, and from straight on.
+struct Sent {
+    mat4x3 back;
+    mat4x3 forward;
+};
+
+const vec4 part_cos = vec4(0.98078528, 0.83146961, 0.55557023, 0.19509032);  // of the middles of the parts
+const vec4 part_cos_twice = vec4(0.92387953, 0.38268343, -0.38268343, -0.92387953);
+
+mat4x3 sent_by(sampler2D table, float sine, vec3 place) {
+    int count = textureSize(table, 0).y;
+    return transpose(mat3x4(textureLod(table, vec2(abs(sine), texel_place(place.r, count)), 0.0),
+                            textureLod(table, vec2(abs(sine), texel_place(place.g, count)), 0.0),
+                            textureLod(table, vec2(abs(sine), texel_place(place.b, count)), 0.0)));
 }
 
-// What goes on forward and what comes back, times cos(2 phi).
-mat2x3 albedo_bent(float sine, vec3 absorption) {
-    int count = textureSize(bent_table, 0).y;
+Sent sent_on(float sine, vec3 absorption) {
     vec3 place = coded(absorption);
-    return transpose(mat3x2(textureLod(bent_table, vec2(abs(sine), texel_place(place.r, count)), 0.0).rg,
-                            textureLod(bent_table, vec2(abs(sine), texel_place(place.g, count)), 0.0).rg,
-                            textureLod(bent_table, vec2(abs(sine), texel_place(place.b, count)), 0.0).rg));
+    return Sent(sent_by(back_table, sine, place), sent_by(forward_table, sine, place));
+}
+
+// What a strand sends forward and back of light from everywhere above (render/fibre.py: sent_on).
+vec3 on(Sent sent) {
+    return 0.5 * (sent.forward * (1.0 + part_cos) + sent.back * (1.0 - part_cos));
+}
+
+vec3 back(Sent sent) {
+    return 0.5 * (sent.forward * (1.0 - part_cos) + sent.back * (1.0 + part_cos));
 }

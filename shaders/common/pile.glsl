@@ -20,11 +20,15 @@ vec3 let_through_by(Pile pile, float met) {
     return one_way * (1.0 - square) / (1.0 - square * one_way * one_way);
 }
 
-// What goes on at a depth that `before` strands lie before and `behind` others follow, as a part of what came in.
-vec3 going_on(Pile pile, float before, float behind) {
-    vec3 square = pile.endless * pile.endless;
-    return exp(-pile.rate * before) * (1.0 - square * exp(-2.0 * pile.rate * behind))
-        / (1.0 - square * exp(-2.0 * pile.rate * (before + behind)));
+// What comes back from so many strands behind, as a part of what strands without end send back on both sides.
+vec3 closed_by(Pile pile, float behind) {
+    return pile.endless * pile.endless * exp(-2.0 * pile.rate * behind);
+}
+
+// What goes on at a depth that `before` strands lie before and others follow, as `closed_by` says, as a part of what came in.
+vec3 going_on(Pile pile, float before, vec3 closed) {
+    vec3 one_way = exp(-pile.rate * before);
+    return one_way * (1.0 - closed) / (1.0 - closed * one_way * one_way);
 }
 
 // What comes back of light that meets so many strands on its way in.

@@ -46,7 +46,7 @@ void main() {
 
     vec3 at = (hair_box * vec4(v_place + n * 0.001, 1.0)).xyz * 0.5 + 0.5;
     float lit = n_l > 0.0 ? past_objects_at(light_box(v_place + (n + l) * 0.0015), 0.001) : 0.0;
-    vec3 sun = pi * radiance.rgb * n_l * lit * through_hair(crossed_beside(at, 0.0));
+    vec3 sun = pi * radiance.rgb * n_l * lit * through_hair(crossed_beside(at, vec4(0.0)));
     float sheen = coat(n_v);
     colour = vec4(sun * (diffuse / pi * (1.0 - sheen) + shine) + soft / pi * (diffuse * (1.0 - sheen) + sheen), 1.0);
 }

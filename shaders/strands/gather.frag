@@ -96,7 +96,7 @@ void main() {
             light = mix(sky_below, sky_above, 0.5 + 0.5 * dot(direction, upward));
             vec3 in_hair = box_of(k, hair_sphere, start);
             if (inside(in_hair.xy)) {
-                Crossed crossed = crossed_beside(in_texture(k, in_hair), 0.0);
+                Crossed crossed = crossed_beside(in_texture(k, in_hair), vec4(0.0));
                 light *= through_hair(crossed);
                 hair += filled(crossed) * basis.first;
             }
@@ -114,9 +114,9 @@ void main() {
             light = wall.rgb;
             if (inside(in_hair.xy)) {
                 vec3 there_in_map = in_texture(k ^ 1, in_hair);
-                Crossed crossed = crossed_beside(there_in_map, 0.0);
+                Crossed crossed = crossed_beside(there_in_map, vec4(0.0));
                 vec3 here_in_map = vec3(there_in_map.xy, box_of(k ^ 1, hair_sphere, start).z);
-                crossed.counts = max(crossed.counts - crossed_beside(here_in_map, 0.0).counts, 0.0);
+                crossed.counts = max(crossed.counts - crossed_beside(here_in_map, vec4(0.0)).counts, 0.0);
                 light *= through_hair(crossed);
                 hair += filled(crossed) * basis.first;
             }

@@ -8,7 +8,6 @@
 #include "common/fibre.glsl"
 #include "common/soft_light.glsl"
 #include "common/pile.glsl"
-#include "common/hot_spot.glsl"
 uniform sampler2D hair_colours;
 uniform bool coloured;         // every point has a colour of its own
 uniform vec3 hair_absorption;  // else: per radius
@@ -36,20 +35,6 @@ float azimuth_between(vec3 along, vec3 a, vec3 b) {
     return acos(clamp(dot(u, v) / max(length(u) * length(v), 1e-6), -1.0, 1.0));
 }
 
-// What a strand sends forward and back of light from everywhere above (render.fibre.sent_on).
-vec3 on(mat4x3 sent) {
-    return 0.5 * (sent[0] + sent[1] - sent[2] - sent[3]);
-}
-
-vec3 back(mat4x3 sent) {
-    return 0.5 * (sent[0] + sent[1] + sent[2] + sent[3]);
-}
-
-// Of its own count, what a strand that is so many texels wide meets again when it reads between them, in the mean.
-float own_count(float texels) {
-    return texels < 1.0 ? 0.75 * texels : texels < 2.0 ? texels - 0.25 * texels * texels : 1.0;
-}
-
 // Kajiya, Kay 1989: a cylinder that scatters evenly, and mirrors along a cone; scaled to send as much as a fibre does.
 vec3 kajiya_kay(float sin_in, float sin_out, vec3 colour, float mirrored) {
     float cos_in = sqrt(max(1.0 - sin_in * sin_in, 0.0)), cos_out = sqrt(max(1.0 - sin_out * sin_out, 0.0));
@@ -69,41 +54,44 @@ void main() {
 
     vec3 at = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
     float texels = 2.0 * point.w * light_widening * float(textureSize(near_counts, 0).x) / box_size;
-    float own = texel.x + texel.y * point_row < light_points ? own_count(texels) : 0.0;
+    vec4 own = vec4(0.0);
+    if (texel.x + texel.y * point_row < light_points) own = own_counts(at.xy, (hair_box * vec4(along, 0.0)).xy, 0.5 * texels);
     // No other strand is so near that its half chord and this one's, pi / 4 radii each in the mean, would meet: strands do not
     // stand in one another. What is nearer is this strand itself.
     float cos_in = sqrt(max(1.0 - sin_in * sin_in, 1e-6));
-    float radius = point.w / (box_size * cos_in), near = 0.5 * pi * radius;
+    float near = 0.5 * pi * point.w / (box_size * cos_in);
     Crossed way = crossed_beside(at - vec3(0.0, 0.0, near), own);
-    float count = dot(way.counts, way.shares), rate = dot(way.rates, way.shares);
-    float radius_count = rate * radius, clear = rate * near;
-    float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - own - count, 0.0);
-    float crossed = 0.0, unseen = 0.0;
-    if (shadow.x >= 0.5) {
-        crossed = count;
-        unseen = dot(met_unseen(way.firsts, (way.depths + near) / radius, phi), way.shares)
-            + crossed_unseen(count - dot(way.firsts, way.shares) + clear, radius_count, phi)
-            - crossed_unseen(clear, radius_count, phi);
-    }
+    float count = dot(way.counts, way.shares);
+    float behind = max(hair_crossed(vec3(at.xy, at.z + behind_depth / box_size)) - dot(own, way.shares) - count, 0.0);
+    if (shadow.x < 0.5) way.counts = vec4(0.0);
+    float crossed = dot(way.counts, way.shares);
     float lit = shadow.x < 0.5 ? 1.0 : past_objects_at(light_box(place + to_light.xyz * 0.002), 0.002);
 
-    mat4x3 sent_in = albedo(sin_in, absorption), sent = albedo(sin_out, absorption);
-    // What is there once light has gone on, and what of that strands behind send back.
-    vec3 passed = vec3(0.0), returned = vec3(0.0);
+    Sent sent_in = sent_on(sin_in, absorption), sent = sent_on(sin_out, absorption);
+    // What comes past the strands, what else there is once light has gone on, and what of all strands behind send back. A
+    // strand is there or not, and so each texel beside the place has its own answer.
+    float direct = 0.0;
+    vec3 scattered = vec3(0.0), returned = vec3(0.0);
+    Pile piles[2];
     float kept = followed;
     for (int k = 0; k < 2; ++k, kept *= followed) {
-        Pile pile_in = pile(kept * on(sent_in), kept * back(sent_in));
-        vec3 here = going_on(pile_in, crossed, behind);
-        passed += (k == 0 ? 2.0 : -1.0) * here;
-        returned += (k == 0 ? 2.0 : -1.0) * here * sent_back_by(pile_in, behind);
+        piles[k] = pile(kept * on(sent_in), kept * back(sent_in));
+        piles[k].rate = taken(piles[k].rate);
     }
-    float direct = exp(-unseen);
-    vec3 scattered = max(passed - exp(-crossed), 0.0);
+    vec3 closed_first = closed_by(piles[0], behind), closed_second = closed_by(piles[1], behind);
+    vec3 back_first = 2.0 * sent_back_by(piles[0], behind), back_second = sent_back_by(piles[1], behind);
+    for (int k = 0; k < 4; ++k) {
+        float past = exp(-opaque * way.counts[k]);
+        vec3 first = going_on(piles[0], way.counts[k], closed_first),
+             second = going_on(piles[1], way.counts[k], closed_second);
+        direct += way.shares[k] * past;
+        scattered += way.shares[k] * max(2.0 * first - second - past, 0.0);
+        returned += way.shares[k] * (first * back_first - second * back_second);
+    }
 
     // Of the soft light what a strand turns to the eye comes from the cone that mirrors it. There, by the azimuth from the
     // eye, it is level + aside cos(phi) + twice cos(2 phi).
     SoftLight soft = soft_light(point.xyz);
-    mat2x3 sent_bent = albedo_bent(sin_out, absorption);
     float sin_2 = sin_out * sin_out, cos_2 = 1.0 - sin_2;
     vec3 hair = turned(along, -head_turn.xyz), eyeward = turned(to_eye - along * sin_out, -head_turn.xyz);
     vec3 along_hair_bent = bend_along(soft, hair, hair);
@@ -118,14 +106,13 @@ void main() {
         from_light = direct * around_hair(around_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, vec4(0.0)))
             + scattered * around_hair(spread_table, phi, sin_out, absorption, along_hair(sin_in, sin_out, wider))
             + returned * on(sent_in) * along_hair(sin_in, sin_out, vec4(0.0)).z * 0.5 * max(cos(phi), 0.0);
-        Pile pile_out = pile(on(sent), back(sent));
-        // Half of what comes is sky; the rest of that half has met strands.
-        vec3 met_soft = -log(clamp(4.0 * level / max(sky.rgb + ground.rgb, 1e-6), 0.05, 1.0)) / max(pile_out.rate, 0.05);
-        vec3 gain = unseen_gain(met_soft, pile_out.rate, radius_count);
-        // No more comes from one half than twice the mean, which a slope goes beyond where all of it comes from there.
-        vec3 most = 2.0 * max(level, 0.0);
-        vec3 from_behind = min(sent[0] * level + sent[2] * aside, sent[0] * most) + sent_bent[0] * twice;
-        vec3 from_before = min(sent[1] * level + sent[3] * aside, sent[1] * most) + sent_bent[1] * twice;
+        // Three numbers swing below nothing where light ends at an edge, and there is no light less than none.
+        vec3 from_behind = vec3(0.0), from_before = vec3(0.0);
+        for (int k = 0; k < 4; ++k) {
+            vec3 even = level + part_cos_twice[k] * twice, odd = part_cos[k] * aside;
+            from_before += sent.back[k] * max(even + odd, 0.0);
+            from_behind += sent.forward[k] * max(even - odd, 0.0);
+        }
         // Hair on either side sends back what comes from the other, again and again (Kubelka 1948).
         vec3 eyeward_half = max(level + 0.25 * pi * aside + twice / 3.0, 0.0);
         vec3 other_half = max(level - 0.25 * pi * aside + twice / 3.0, 0.0);
@@ -140,9 +127,7 @@ void main() {
             more_behind += back_behind * again * (eyeward_half + back_before * other_half);
             more_before += back_before * again * (other_half + back_behind * eyeward_half);
         }
-        from_behind = max(from_behind, 0.0) + on(sent) * more_behind;
-        from_before = max(from_before, 0.0) + back(sent) * more_before;
-        from_sky = from_behind + gain * from_before;
+        from_sky = from_behind + from_before + on(sent) * more_behind + back(sent) * more_before;
     } else {
         vec3 colour = exp(-sqrt(absorption) * colour_slope);
         from_light = direct * kajiya_kay(sin_in, sin_out, colour, 0.05) + scattered * kajiya_kay(sin_in, sin_out, colour, 0.0);

@@ -14,5 +14,5 @@ void main() {
     vec3 place = turned(texelFetch(receivers, ivec2(gl_FragCoord.xy), 0).xyz, head_turn.xyz) + head_shift.xyz;
     place += to_light.xyz * 0.001;
     vec3 in_hair = (hair_box * vec4(place, 1.0)).xyz * 0.5 + 0.5;
-    lit = vec4(past_objects_at(light_box(place), 0.001) * through_hair(crossed_beside(in_hair, 0.0)), 1.0);
+    lit = vec4(past_objects_at(light_box(place), 0.001) * through_hair(crossed_beside(in_hair, vec4(0.0))), 1.0);
 }

@@ -19,7 +19,7 @@ in vec4 asked;
 out vec2 said;
 void main() {{
     Pile here = pile(vec3(asked.x), vec3(asked.y));
-    said = vec2(let_through_by(here, asked.z).r, going_on(here, asked.z - asked.w, asked.w).r);
+    said = vec2(let_through_by(here, asked.z).r, going_on(here, asked.z - asked.w, closed_by(here, asked.w)).r);
 }}
 """
 

@@ -242,6 +242,42 @@ def test_deep_opacity_is_what_rays_meet(gl: moderngl.Context, programs: StrandPr
     assert (np.diff(LAYER_DEPTHS) > 0).all()
 
 
+def sun_that_arrives(gl: moderngl.Context, programs: StrandPrograms, strands: Strands) -> Floats:
+    """The part of the sun that falls on every point, (p,): black strands with their shadows over those without."""
+    black = StrandMaterial(Fibre(roughness=0.8, radial_roughness=0.8), (50.0, 50.0, 50.0))
+    source = pack(strands).source
+    shades = np.empty((2, len(source)))
+    for k, shadows in enumerate((True, False)):
+        hair, kept = lit_hair(gl, programs, strands, shadows=shadows)
+        hair.shade(black)
+        shades[k, source] = np.frombuffer(hair._shades.read(), np.float16).reshape(-1, 4)[: len(source), 0]
+        del kept
+    assert shades[1].min() > 0.0
+    return shades[0] / shades[1]
+
+
+def test_sun_falls_on_the_strands_that_rays_reach(gl: moderngl.Context, programs: StrandPrograms) -> None:
+    strands = fur(3_000, points=8)
+    asked = np.random.default_rng(8).choice(len(strands.points), 900, replace=False)
+    lit = sun_that_arrives(gl, programs, strands)[asked]
+    seen = strands_crossed(strands, strands.points[asked].astype(float), asked // 8, TO_LIGHT) == 0
+    assert 0.2 < seen.mean() < 0.8
+    assert abs(lit.mean() - seen.mean()) < 0.03
+    assert np.corrcoef(lit, seen)[0, 1] > 0.8
+    assert lit[seen].mean() > 0.85
+    assert lit[~seen].mean() < 0.32
+
+
+def test_a_strand_that_stands_alone_is_in_no_shadow(gl: moderngl.Context, programs: StrandPrograms) -> None:
+    """Not in its own, either, whatever it has added to the light's map: thick strands in every direction, far apart."""
+    strands = fur(60, points=8, radius=6e-4)
+    met = strands_crossed(strands, strands.points.astype(float), np.arange(60).repeat(8), TO_LIGHT)
+    lit = sun_that_arrives(gl, programs, strands)[met == 0]
+    assert len(lit) > 200
+    assert np.quantile(lit, 0.1) > 0.95
+    assert lit.mean() > 0.95
+
+
 def test_a_ball_hides_its_part_of_the_sky(gl: moderngl.Context, programs: StrandPrograms) -> None:
     strands = fur(50)
     hair = StrandHair(gl, programs, StrandSurvey(strands), 50, FINE)

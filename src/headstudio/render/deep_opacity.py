@@ -22,7 +22,7 @@ LAYER_DEPTHS = np.array([0.0015, 0.004, 0.008, 0.015, 0.027, 0.048, 0.085, 0.15]
 """Behind the first hair [m]; the last layer holds all that is still deeper, too."""
 
 
-# Of the light, by one strand in the logarithm: which has no value for all.
+# Of the light, by one strand in the logarithm: which has no value for all. As in common/deep_opacity.glsl.
 _MOST_TAKEN = 0.98
 # A strand that is drawn as wide as it is is met within so much [m].
 _AT_ONCE = 1e-6

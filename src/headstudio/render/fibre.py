@@ -26,6 +26,9 @@ LOBES = 4
 AZIMUTHS, SINES, ABSORPTIONS = 64, 24, 24
 """Size of the azimuthal tables: samples of phi in 0..pi, of the sine of theta in 0..1, and of the absorption."""
 
+DIRECTIONS = 4
+"""Parts of the azimuth, of a quarter turn each way, that soft light comes from; as in common/fibre.glsl."""
+
 _OFFSETS = 48
 # Of x / (1 + x), the last absorption in the tables; coded_most in common/fibre.glsl.
 _CODED_MOST = 0.98
@@ -159,14 +162,14 @@ class FibreTables:
     """What shaders read of a fibre, sampled at texel centres.
 
     around: A times N, (ABSORPTIONS, SINES, AZIMUTHS, LOBES). spread: the same for light that comes from anywhere within a
-    quarter turn of the light's azimuth, as it does after many hairs. albedo: of the light that
-    is met, the part that goes on forward and the part that comes back, and the integrals over each half of the
-    lobes times cos(phi) and times cos(2 phi), (ABSORPTIONS, SINES, 6).
+    quarter turn of the light's azimuth, as it does after many hairs. turned: of the light that is met, the parts that the
+    azimuth turns by so much: DIRECTIONS parts of it from straight back on, then as many from straight on,
+    (ABSORPTIONS, SINES, 2 DIRECTIONS).
     """
 
     around: Floats
     spread: Floats
-    albedo: Floats
+    turned: Floats
 
 
 @lru_cache(maxsize=2)
@@ -181,13 +184,10 @@ def fibre_tables(fibre: Fibre) -> FibreTables:
     near = np.arange(AZIMUTHS)[:, None] + np.arange(-quarter, quarter) + (np.arange(2 * quarter) >= quarter)
     folded = np.where(near < 0, -1 - near, np.where(near >= AZIMUTHS, 2 * AZIMUTHS - 1 - near, near))
     spread = np.einsum("asjl,ij->asil", around, np.eye(AZIMUTHS)[folded].mean(axis=1), optimize=True)
-    lobes = around.sum(axis=3) * (2 * np.pi / AZIMUTHS)
-    halves = [
-        (lobes * weight)[:, :, half].sum(axis=2)
-        for weight in (1.0, np.cos(phi), np.cos(2 * phi))
-        for half in (np.s_[quarter:], np.s_[:quarter])
-    ]
-    return FibreTables(around, spread, np.stack(halves, axis=-1))
+    parts = around.sum(axis=3).reshape(ABSORPTIONS, SINES, 2 * DIRECTIONS, -1).sum(axis=3) * (2 * np.pi / AZIMUTHS)
+    return FibreTables(
+        around, spread, np.concatenate([parts[..., :DIRECTIONS], parts[..., : DIRECTIONS - 1 : -1]], axis=2)
+    )
 
 
 class Sent(NamedTuple):
@@ -213,8 +213,9 @@ def sent_on(tables: FibreTables, absorption: Floats, followed: float = 1.0) -> S
     """
     coded = absorption / (1 + absorption)
     place = np.linspace(0.0, _CODED_MOST, ABSORPTIONS)
-    parts = [np.interp(coded, place, tables.albedo[:, SINES // 2, part]) for part in range(4)]
-    all_, onward = parts[0] + parts[1], -(parts[2] + parts[3])
+    parts = [np.interp(coded, place, part) for part in tables.turned[:, SINES // 2].T]
+    cosines = np.cos((np.arange(DIRECTIONS) + 0.5) * np.pi / (2 * DIRECTIONS))
+    all_, onward = sum(parts), np.concatenate([-cosines, cosines]) @ parts
     return Sent(0.5 * (all_ + onward), 0.5 * (all_ - onward), followed)
 
 

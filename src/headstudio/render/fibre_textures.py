@@ -24,8 +24,8 @@ class FibreTextures:
         for k, texture in enumerate(self._textures):
             texture.use(first_unit + k)
         return {
-            "around_table": first_unit, "spread_table": first_unit + 1, "albedo_table": first_unit + 2,
-            "bent_table": first_unit + 3,
+            "around_table": first_unit, "spread_table": first_unit + 1, "back_table": first_unit + 2,
+            "forward_table": first_unit + 3,
             "variances": tuple(fibre.variances),
             "tilt_cos": tuple(np.cos(fibre.tilts)),
             "tilt_sin": tuple(np.sin(fibre.tilts)),
@@ -33,8 +33,8 @@ class FibreTextures:
 
     def _make(self, fibre: Fibre) -> None:
         tables = fibre_tables(fibre)
-        plain, bent = (self._plane(part) for part in np.split(tables.albedo, [4], axis=2))
-        self._textures = [self._volume(tables.around), self._volume(tables.spread), plain, bent]
+        back, forward = (self._plane(part) for part in np.split(tables.turned, 2, axis=2))
+        self._textures = [self._volume(tables.around), self._volume(tables.spread), back, forward]
         self._fibre = fibre
 
     def _plane(self, values: Floats) -> moderngl.Texture:

@@ -24,7 +24,7 @@ class StrandDetail:
     0 leaves none out. bend_pixels: every second point of the strands is left out where most bend by no more than so many
     pixels from there to the next. sun_strands, sky_strands: how many strands, a fair sample of all, are drawn into the map
     of the light and into those of the sky. stride: of their points only every so many, and for the sky as few as they are
-    straight. coarseness: texels of the map of the light are so many times as large as those of other shadows. pairs: of
+    straight. fineness: the map of the light has so many times as many texels a side as that of other shadows. pairs: of
     opposite directions that stand for the sky. spacing: of the nodes where soft light is worked out [m], where the hair is
     not too large for it. piece: segments that are sorted as one when strands are blended. Where hair turns toward the eye long
     pieces stand in a wrong order, and what lies deeper, in the shadow, is drawn over what is lit.
@@ -35,7 +35,7 @@ class StrandDetail:
     sun_strands: int
     sky_strands: int
     stride: int
-    coarseness: int
+    fineness: float
     pairs: int
     spacing: float
     piece: int
@@ -47,7 +47,7 @@ FINE = StrandDetail(
     sun_strands=20_000,
     sky_strands=5_000,
     stride=1,
-    coarseness=1,
+    fineness=2.0,
     pairs=16,
     spacing=0.004,
     piece=1,
@@ -58,7 +58,7 @@ QUICK = StrandDetail(
     sun_strands=5_000,
     sky_strands=800,
     stride=2,
-    coarseness=1,
+    fineness=1.0,
     pairs=5,
     spacing=0.006,
     piece=2,
@@ -69,7 +69,7 @@ ROUGH = StrandDetail(
     sun_strands=2_000,
     sky_strands=400,
     stride=2,
-    coarseness=2,
+    fineness=0.5,
     pairs=3,
     spacing=0.01,
     piece=2,

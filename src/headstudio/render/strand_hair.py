@@ -160,7 +160,7 @@ class StrandHair:
 
         ``light``: its view of all there is; that of the hair alone, which has finer texels, follows from it.
         """
-        size //= self.detail.coarseness
+        size = int(size * self.detail.fineness)
         if self.opacity is None or self.opacity.size != size:
             self.opacity = DeepOpacityMap(self._context, self._programs.opacity, size)
         pose = _pose(frame)
