@@ -263,16 +263,20 @@ class Flow:
             return direction
         best = direction.copy()
         bent, least, slope = direction[:, colliding], density[colliding], slope[colliding]
+        excess = least / np.maximum(ceiling[colliding], 1e-6) - 1.0
         for _ in range(_BENDS):
             start_here, clear = start[:, colliding], clearance[colliding]
             away = unit(-slope.T.astype(np.float64), otherwise=bent)
-            bent = self._slide(start_here, bend_toward(bent, away, self._bend), clear)
+            # Hair that is only a little too dense makes way a little.
+            angle = self._bend * np.minimum(excess, 1.0)
+            bent = self._slide(start_here, bend_toward(bent, away, angle), clear)
             here, slope = self._density.at((start_here + half * bent).T)
             better = here < least
             least = np.where(better, here, least)
             best[:, colliding[better]] = bent[:, better]
             still = (here > ceiling[colliding]).nonzero()[0]
             colliding, bent, least, slope = colliding[still], bent[:, still], least[still], slope[still]
+            excess = here[still] / np.maximum(ceiling[colliding], 1e-6) - 1.0
             if len(colliding) == 0:
                 break
         self.tally.unresolved += len(colliding)

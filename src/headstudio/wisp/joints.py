@@ -56,8 +56,10 @@ def _half_turn(vectors: Floats, direction: Floats) -> Floats:
     return 2.0 * dot(axis, vectors) * axis - vectors
 
 
-def bend_toward(direction: Floats, goal: Floats, angle: float) -> Floats:
-    """Unit ``direction``, (3, k), turned by ``angle`` [rad] toward the unit vectors ``goal``, (3, k), and not beyond."""
+def bend_toward(direction: Floats, goal: Floats, angle: float | Floats) -> Floats:
+    """Unit ``direction``, (3, k), turned by ``angle`` [rad], of all or of each, (k,), toward the unit vectors ``goal``, (3, k),
+    and not beyond.
+    """
     along = dot(direction, goal)
     across = unit(goal - along * direction, otherwise=np.zeros_like(goal))
     by = np.minimum(angle, np.arccos(np.maximum(np.minimum(along, 1.0), -1.0)))
