@@ -140,8 +140,8 @@ def test_hair_beside_the_head_is_drawn_to_it_and_what_lies_over_an_ear_is_not():
     assert np.all(np.einsum("ij,ij->i", change[0], outward) < -0.3)
     assert np.abs(change[0][:, 1]).max() < 1e-6
     assert np.abs(change[1]).max() < 1e-6
-    # Nor is it on top of the head, or far off.
-    for place in ([0.0, 1.1, 0.0], [3.5, -0.5, 0.0]):
+    # Nor is it on top of the head, at the nape, or far off.
+    for place in ([0.0, 1.1, 0.0], [0.0, -0.9, -1.2], [3.5, -0.5, 0.0]):
         assert field_at([place], close=1.0) == pytest.approx(field_at([place]))
 
 

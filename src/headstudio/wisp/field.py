@@ -169,19 +169,19 @@ def _off_shoulders(places: Floats, grid: Grid, surroundings: Surroundings) -> Fl
     return _fade(off, *_LYING) * _fade(places[:, 1], *_LOW) * carried - leans
 
 
-# Hair that hangs beside the head is drawn to it between these heights, in half heights of the head, the more the farther off
-# the skin it hangs, and from nowhere else [m].
-_HANGS, _CLOSES = (-1.6, -1.1, 0.2, 0.9), (0.004, 0.03, 0.08, 0.14)
+# Hair that hangs beside the face is drawn to it between these heights, in half heights of the head, from so far behind on, in
+# half depths of it, the more the farther off the skin it hangs, and from nowhere else [m].
+_HANGS, _BESIDE_FACE, _CLOSES = (-1.6, -1.1, 0.2, 0.9), (-0.4, 0.1), (0.004, 0.03, 0.08, 0.14)
 
 
 def _close(places: Floats, grid: Grid, surroundings: Surroundings) -> Floats:
-    """Hair clings to the hair below it, and so to temple, cheek and neck, and does not hang plumb from where the head is
-    widest. What lies over an ear stays there.
+    """Hair clings to the hair below it, and so to temple, cheek and throat, and does not hang plumb from where the head is
+    widest. What lies over an ear stays there, and behind it hair falls over the nape.
     """
     off, outward = surroundings.distance_and_gradient_anywhere(grid.nodes)
     level = outward * np.array([1.0, 0.0, 1.0])
     beside = (1.0 - _fade(places[:, 1], *_HANGS[:2])) * _fade(places[:, 1], *_HANGS[2:])
-    beside *= 1.0 - over_ears(places)[:, None]
+    beside *= (1.0 - over_ears(places)[:, None]) * (1.0 - _fade(places[:, 2], *_BESIDE_FACE))
     return -beside * (1.0 - _fade(off, *_CLOSES[:2])) * _fade(off, *_CLOSES[2:]) * level
 
 

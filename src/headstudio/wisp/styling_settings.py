@@ -71,7 +71,7 @@ class StylingSettings:
     off_face: float = _weight(1.6, "Off the face", "Weight of the push from the face to the sides.")
     inward: float = _weight(0.0, "Inward", "Weight of the pull toward the neck, which turns the tips of a bob in.")
     close: float = _weight(
-        0.4, "Close to the face", "Weight with which hair that hangs is drawn to temple, cheek and neck."
+        0.4, "Close to the face", "Weight with which hair that hangs beside the face is drawn to it."
     )
     off_shoulders: float = _weight(
         1.0,
