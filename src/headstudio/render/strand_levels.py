@@ -35,8 +35,7 @@ class StrandLevels:
             pixels = np.asarray(image.convert("RGB"), np.float64)[..., :2]
         self._width = pixels.shape[1]
         self._levels: list[moderngl.Texture] = []
-        finer = pixels  # with texels of so many of the finest: _step
-        step = 1
+        finer, step = pixels, 1  # whose texels are as wide as so many of the finest
         for k in range(_PER_OCTAVE * int(np.log2(self._width / _LEAST_WIDTH)) + 1):
             pixel = 2.0 ** (k / _PER_OCTAVE)
             self._levels.append(_texture(context, _smoothed(finer, _BLUR * pixel / step), moderngl.LINEAR))

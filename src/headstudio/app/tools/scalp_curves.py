@@ -14,7 +14,6 @@ from ...head.mesh import Floats
 from ...head.scalp_curves import catmull_rom
 from .. import theme
 from ..picking import View
-from ..studio import Studio
 from ..ui import Ui
 from .tool import Canvas, Pointer, Tool
 
@@ -30,9 +29,6 @@ class ShapeScalp(Tool):
     label = "Scalp"
     icon = icons.ICON_FA_BEZIER_CURVE
     help = "Drag the handles of the four curves between which hair grows."
-
-    def __init__(self, studio: Studio) -> None:
-        super().__init__(studio)
 
     def press(self, pointer: Pointer) -> bool:
         """Take the handle under the mouse."""
