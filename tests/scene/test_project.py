@@ -246,9 +246,15 @@ def test_an_older_schema_is_migrated_step_by_step(saved, monkeypatch):
         return manifest
 
     edit_manifest(saved, lambda m: m["parameters"]["hair"].update(longest=m["parameters"]["hair"].pop("length")))
+    edit_manifest(saved, lambda m: m.update(schema=1))
     monkeypatch.setattr(project, "SCHEMA", 3)
     monkeypatch.setattr(project, "MIGRATORS", {1: rename, 2: lambda manifest: manifest})
     assert load_project(saved) == project.Project(assign(Document(), {"hair.length": 0.42}))
+
+
+def test_a_temperature_by_point_becomes_one_by_coordinate(saved):
+    edit_manifest(saved, lambda m: (m.update(schema=1), m["parameters"]["wisp"].update(temperature=0.12)))
+    assert load_project(saved).document.wisp.temperature == pytest.approx(0.12 / np.sqrt(3))
 
 
 def test_there_is_a_migrator_for_every_step():

@@ -14,6 +14,7 @@ from __future__ import annotations
 import dataclasses
 import io
 import json
+import math
 import os
 import zipfile
 import zlib
@@ -32,7 +33,7 @@ from .files import write_atomically
 
 SUFFIX = ".headstudio"
 PROGRAM = "headstudio"
-SCHEMA = 1
+SCHEMA = 2
 MANIFEST = "project.json"
 
 # Bytes when unpacked. A dozen maps of 4096 x 4096 pixels are below this; what is above is no project.
@@ -40,8 +41,18 @@ LARGEST = 512 * 2**20
 
 Manifest = dict[str, Any]
 
+
+def _temperature_by_coordinate(manifest: Manifest) -> Manifest:
+    """Of Choe and Ko's eq. 4, T was counted by point until schema 2; a point has three coordinates."""
+    parts = manifest.get("parameters")
+    wisp = parts.get("wisp") if isinstance(parts, dict) else None
+    if isinstance(wisp, dict) and isinstance(wisp.get("temperature"), int | float):
+        wisp["temperature"] /= math.sqrt(3.0)
+    return manifest
+
+
 # From schema k to k + 1: takes the manifest of the one and returns that of the other.
-MIGRATORS: Mapping[int, Callable[[Manifest], Manifest]] = {}
+MIGRATORS: Mapping[int, Callable[[Manifest], Manifest]] = {1: _temperature_by_coordinate}
 
 
 class ProjectError(ValueError):
